@@ -1,0 +1,11 @@
+# Debian's packages (packages.txt), found by pkg-config.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+pkg_check_modules(spng REQUIRED IMPORTED_TARGET spng)
+pkg_check_modules(turbojpeg REQUIRED IMPORTED_TARGET libturbojpeg)
+pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebp)
+pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
+pkg_check_modules(jansson REQUIRED IMPORTED_TARGET jansson)
+pkg_check_modules(vulkan REQUIRED IMPORTED_TARGET vulkan)
+find_program(GLSLC glslc REQUIRED)
+# cglm is headers only (its Debian package has no pkg-config file that needs linking).

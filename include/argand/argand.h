@@ -1,0 +1,10 @@
+// Argand: a physically based real-time renderer.  This header is the whole API.
+#ifndef ARGAND_ARGAND_H
+#define ARGAND_ARGAND_H
+
+#include <argand/base.h>
+#include <argand/image.h>
+#include <argand/renderer.h>
+#include <argand/scene.h>
+
+#endif

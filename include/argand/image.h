@@ -1,0 +1,65 @@
+// Images in host memory, read from and written to files.
+//
+// Threads: an image is immutable after it is made, so that any number of threads
+// may read it; distinct images are independent.
+#ifndef ARGAND_IMAGE_H
+#define ARGAND_IMAGE_H
+
+#include <argand/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ag_image ag_image;
+
+// Four channels, rows from the top, no padding between rows, straight alpha.
+typedef enum ag_format {
+    AG_FORMAT_RGBA8 = 0, // 8 bits each; sRGB-coded when it is a picture
+    AG_FORMAT_RGBA32F,   // linear Rec. 709 floats: HDR, EXR
+} ag_format;
+
+typedef struct ag_image_desc {
+    uint32_t width, height; // px, at least 1
+    ag_format format;
+    const void *pixels; // width * height * 4 channels, copied; NULL -> zeros
+} ag_image_desc;
+
+// Make an image.  AG_ERROR_ARGUMENT on a zero size or one above 2^28 pixels.
+AG_CHECK ag_status ag_image_create(const ag_log *log, const ag_image_desc *desc, ag_image **image);
+
+// Read PNG, JPEG, WebP (to RGBA8), Radiance HDR or OpenEXR (to RGBA32F).  What it
+// is is told by its first bytes, never by its name.  NULL log -> stderr.
+AG_CHECK ag_status ag_image_load(const ag_log *log, const char *path, ag_image **image);
+
+// The same from memory; `name` stands for the file in messages.
+AG_CHECK ag_status ag_image_load_memory(const ag_log *log, const char *name, const void *data,
+                                        size_t size, ag_image **image);
+
+typedef struct ag_image_save_options {
+    int quality;     // JPEG and WebP, 1 to 100; 0 -> 92
+    int compression; // PNG, 1 (fast) to 9 (small); 0 -> 2
+} ag_image_save_options;
+
+// Write an image; the name's ending chooses .png .jpg .jpeg .webp (from RGBA8)
+// .hdr .exr (from RGBA32F).  The other format is converted: floats are clipped to
+// [0, 1] and sRGB-coded, bytes are decoded.  JPEG and HDR have no alpha: it is
+// composited over white, as a browser would.  The file appears whole or not at
+// all: it is written beside its place and renamed.  NULL options -> defaults.
+AG_CHECK ag_status ag_image_save(const ag_log *log, const ag_image *image, const char *path,
+                                 const ag_image_save_options *options);
+
+AG_API uint32_t ag_image_width(const ag_image *image);
+AG_API uint32_t ag_image_height(const ag_image *image);
+AG_API ag_format ag_image_format(const ag_image *image);
+
+// The first pixel of the top row.  Borrowed: lives as long as the image.
+AG_API const void *ag_image_pixels(const ag_image *image);
+
+// NULL is allowed.
+AG_API void ag_image_destroy(ag_image *image);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

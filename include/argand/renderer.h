@@ -1,0 +1,120 @@
+// The renderer: a Vulkan device, and pictures of scenes made on it.
+//
+// Threads: a device and its renderers belong to one thread at a time; distinct
+// devices are independent.  A device outlives its renderers.
+#ifndef ARGAND_RENDERER_H
+#define ARGAND_RENDERER_H
+
+#include <argand/base.h>
+#include <argand/image.h>
+#include <argand/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// ---- Devices ---------------------------------------------------------------
+
+typedef enum ag_device_kind {
+    AG_DEVICE_OTHER = 0,
+    AG_DEVICE_DISCRETE,
+    AG_DEVICE_INTEGRATED,
+    AG_DEVICE_VIRTUAL,
+    AG_DEVICE_CPU, // Mesa's lavapipe
+} ag_device_kind;
+
+typedef struct ag_device_info {
+    char name[256];
+    char driver[256]; // name and version
+    ag_device_kind kind;
+    bool usable;            // has all that Argand needs
+    char missing[128];      // else the first thing it lacks
+    uint32_t max_size;      // px, the largest picture made without tiles
+    uint64_t memory_bytes;  // of the largest device-local heap
+} ag_device_info;
+
+// List the Vulkan devices: up to `capacity` into `infos`, how many there are into
+// `*count` (infos may be NULL).  AG_ERROR_DEVICE when there is no Vulkan driver at all.
+AG_CHECK ag_status ag_device_list(const ag_log *log, ag_device_info *infos, size_t capacity,
+                                  size_t *count);
+
+typedef struct ag_device_desc {
+    const ag_log *log; // NULL -> stderr
+    // "auto": the best GPU, else the CPU; "cpu"; an index of ag_device_list; or a part
+    // of a name, case ignored.  NULL -> "auto".
+    const char *select;
+    bool validate; // the Khronos validation layer with synchronisation validation;
+                   // its messages come as errors.  AG_ERROR_DEVICE where it is absent.
+} ag_device_desc;
+
+typedef struct ag_device ag_device;
+
+// Open a device.  NULL desc -> defaults.
+AG_CHECK ag_status ag_device_create(const ag_device_desc *desc, ag_device **device);
+AG_API void ag_device_destroy(ag_device *device); // NULL is allowed
+
+// Borrowed from the device.
+AG_API const ag_device_info *ag_device_describe(const ag_device *device);
+
+// How many messages the validation layer has given so far.
+AG_API uint32_t ag_device_validation_messages(const ag_device *device);
+
+// ---- Pictures --------------------------------------------------------------
+
+typedef struct ag_renderer ag_renderer;
+
+AG_CHECK ag_status ag_renderer_create(ag_device *device, ag_renderer **renderer);
+AG_API void ag_renderer_destroy(ag_renderer *renderer); // NULL is allowed
+
+typedef enum ag_tonemap {
+    AG_TONEMAP_NEUTRAL = 0,     // Khronos PBR Neutral
+    AG_TONEMAP_NONE,            // clip
+    AG_TONEMAP_REINHARD,
+    AG_TONEMAP_ACES,            // Hill's fit of RRT and ODT
+    AG_TONEMAP_ACES_NARKOWICZ,  // Narkowicz' curve
+    AG_TONEMAP_AGX,
+} ag_tonemap;
+
+typedef enum ag_background {
+    AG_BACKGROUND_ENVIRONMENT = 0,
+    AG_BACKGROUND_TRANSPARENT,
+    AG_BACKGROUND_COLOR,
+} ag_background;
+
+typedef enum ag_quality {
+    AG_QUALITY_DEFAULT = 0, // 4 samples a pixel on edges
+    AG_QUALITY_FAST,        // 1 sample a pixel
+    AG_QUALITY_BEST,        // 32 jittered frames accumulated
+} ag_quality;
+
+typedef struct ag_render_options {
+    uint32_t width, height; // px; 0 -> 1024.  Above the device's limit: tiles
+    ag_format format;       // RGBA8: tone-mapped, sRGB-coded; RGBA32F: linear, exposed
+    ag_quality quality;
+    ag_tonemap tonemap;
+    ag_background background;
+    float background_color[3]; // sRGB-coded, shown as it is, not exposed
+    float exposure;            // linear factor; 0 -> 1
+    ag_progress progress;      // stages "bake", "upload", "render", "read back"
+} ag_render_options;
+
+// Milliseconds of wall time that one render spent, and what it drew.
+typedef struct ag_render_stats {
+    double bake_ms, compile_ms, upload_ms, frame_ms, readback_ms;
+    uint32_t draws, instances, tiles, samples;
+    uint64_t triangles;
+    bool environment_cached; // found on disk, not baked
+} ag_render_stats;
+
+// Make a picture.  Meshes, textures and the environment are kept on the device until a
+// different scene, or a changed one, is rendered; the scene is not needed afterwards.
+// `camera` NULL -> ag_scene_frame's automatic view.  `stats` may be NULL.
+AG_CHECK ag_status ag_renderer_render(ag_renderer *renderer, const ag_scene *scene,
+                                      const ag_camera_desc *camera,
+                                      const ag_render_options *options, ag_image **image,
+                                      ag_render_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,247 @@
+// A scene is plain CPU data: meshes, materials, textures, instances, lights,
+// cameras and one environment.  No graphics device is needed to hold one.
+//
+// Ownership: what is passed in is copied unless a field says "borrowed".
+// Threads:   one writer, or many readers; never both at once.
+// Units:     metres, radians, candela, lux, nit; linear Rec. 709 colours;
+//            right-handed, +Y up (glTF 2.0).
+#ifndef ARGAND_SCENE_H
+#define ARGAND_SCENE_H
+
+#include <argand/base.h>
+#include <argand/image.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ag_scene ag_scene;
+
+// Names of things inside one scene; 0 = none.  An id that the scene never gave out
+// is AG_ERROR_ARGUMENT.
+typedef struct ag_texture {
+    uint32_t id;
+} ag_texture;
+typedef struct ag_material {
+    uint32_t id;
+} ag_material;
+typedef struct ag_mesh {
+    uint32_t id;
+} ag_mesh;
+typedef struct ag_instance {
+    uint32_t id;
+} ag_instance;
+typedef struct ag_light {
+    uint32_t id;
+} ag_light;
+typedef struct ag_camera {
+    uint32_t id;
+} ag_camera;
+
+// Make an empty scene; NULL log -> stderr.
+AG_CHECK ag_status ag_scene_create(const ag_log *log, ag_scene **scene);
+AG_API void ag_scene_destroy(ag_scene *scene); // NULL is allowed
+
+// ---- Filling it ------------------------------------------------------------
+
+typedef struct ag_load_options {
+    uint32_t scene;        // of a file with several, 1 = the first; 0 -> the file's default
+    ag_progress progress;  // stages "load", "decode"
+} ag_load_options;
+
+// Read a glTF 2.0 file (.gltf with its files, or .glb) and append it.  Its nodes are
+// flattened; skins and morph targets are applied in the pose that the file gives.
+// Files beside it are read only from its own folder and below.  NULL options ->
+// defaults.  AG_ERROR_UNSUPPORTED names a required extension that is not known.
+AG_CHECK ag_status ag_scene_load(ag_scene *scene, const char *path,
+                                 const ag_load_options *options);
+
+// Append a scene that is built in ("spheres", say) with its lights and camera.
+// AG_ERROR_ARGUMENT for an unknown name lists those there are.
+AG_CHECK ag_status ag_scene_load_demo(ag_scene *scene, const char *name);
+
+// The built-in scenes: name and one line about demo `index`; false past the last.
+AG_API bool ag_scene_demo(size_t index, const char **name, const char **about);
+
+typedef enum ag_wrap {
+    AG_WRAP_REPEAT = 0,
+    AG_WRAP_MIRROR,
+    AG_WRAP_CLAMP,
+} ag_wrap;
+
+typedef enum ag_filter {
+    AG_FILTER_LINEAR = 0,
+    AG_FILTER_NEAREST,
+} ag_filter;
+
+typedef struct ag_texture_desc {
+    const ag_image *image; // RGBA8; copied
+    ag_wrap wrap_u, wrap_v;
+    ag_filter mag, min, mip;
+    bool no_mips;
+} ag_texture_desc;
+
+AG_CHECK ag_status ag_scene_add_texture(ag_scene *scene, const ag_texture_desc *desc,
+                                        ag_texture *texture);
+
+// One use of a texture.  uv' = offset + R(rotation) (scale * uv), the order of
+// KHR_texture_transform; a zero scale means (1, 1).
+typedef struct ag_texture_use {
+    ag_texture texture;
+    uint32_t uv_set; // 0 or 1
+    float offset[2];
+    float rotation_rad; // counter-clockwise
+    float scale[2];
+} ag_texture_use;
+
+typedef enum ag_alpha_mode {
+    AG_ALPHA_OPAQUE = 0,
+    AG_ALPHA_MASK,
+    AG_ALPHA_BLEND,
+} ag_alpha_mode;
+
+// The metallic-roughness material of glTF 2.0 with KHR_materials_unlit,
+// _emissive_strength, _ior and _specular.  A factor that multiplies has no natural
+// zero, so start from ag_material_default().
+typedef struct ag_material_desc {
+    float base_color[4]; // linear, with alpha
+    float metallic, roughness; // [0, 1], perceptual roughness
+    float emissive[3];         // nit, strength included
+    float normal_scale;
+    float occlusion_strength;  // [0, 1]
+    float ior;                 // of the dielectric; 0 = specular everywhere 1 (KHR_materials_ior)
+    float specular;            // [0, 1]
+    float specular_color[3];   // linear, >= 0
+    ag_alpha_mode alpha_mode;
+    float alpha_cutoff;
+    bool double_sided;
+    bool unlit;
+    ag_texture_use base_color_texture;         // sRGB, alpha
+    ag_texture_use metallic_roughness_texture; // G roughness, B metallic
+    ag_texture_use normal_texture;             // tangent space, +Y up
+    ag_texture_use occlusion_texture;          // R
+    ag_texture_use emissive_texture;           // sRGB
+    ag_texture_use specular_texture;           // A
+    ag_texture_use specular_color_texture;     // sRGB
+} ag_material_desc;
+
+// glTF's defaults: white, metallic 1, roughness 1, ior 1.5, everything else neutral.
+AG_API ag_material_desc ag_material_default(void);
+
+AG_CHECK ag_status ag_scene_add_material(ag_scene *scene, const ag_material_desc *desc,
+                                         ag_material *material);
+
+// Triangles.  `normals` NULL -> flat (the vertices are split); `tangents` NULL ->
+// computed from the normals and uv set 0 as MikkTSpace does; the rest NULL -> zero,
+// colours white.
+typedef struct ag_mesh_desc {
+    const float *positions; // [vertex_count][3] m
+    const float *normals;   // [vertex_count][3] unit
+    const float *tangents;  // [vertex_count][4] unit, w = handedness
+    const float *uvs[2];    // [vertex_count][2]
+    const float *colors;    // [vertex_count][4] linear
+    uint32_t vertex_count;
+    const uint32_t *indices; // [index_count]; NULL -> 0, 1, 2, ...
+    uint32_t index_count;    // a multiple of 3
+    uint32_t tangent_uv_set; // the uv set that computed tangents follow
+} ag_mesh_desc;
+
+AG_CHECK ag_status ag_scene_add_mesh(ag_scene *scene, const ag_mesh_desc *desc, ag_mesh *mesh);
+
+// Show a mesh with a material (0 -> the default one).  `world` is a column-major
+// affine matrix; NULL -> identity.  Mirroring matrices are allowed.
+AG_CHECK ag_status ag_scene_add_instance(ag_scene *scene, ag_mesh mesh, ag_material material,
+                                         const float world[16], ag_instance *instance);
+
+typedef enum ag_light_kind {
+    AG_LIGHT_POINT = 0,
+    AG_LIGHT_SPOT,
+    AG_LIGHT_DIRECTIONAL,
+} ag_light_kind;
+
+typedef struct ag_light_desc {
+    ag_light_kind kind;
+    float position[3];  // m, world space; ignored for AG_LIGHT_DIRECTIONAL
+    float direction[3]; // the way the light travels; 0 -> (0, 0, -1)
+    float color[3];     // linear Rec. 709 weights; 0 -> white
+    float intensity;    // cd (point, spot), lux (directional)
+    float range_m;      // point and spot: no light beyond; 0 -> unbounded
+    float cone_inner_rad, cone_outer_rad; // spot, from the axis; outer 0 -> pi/4
+} ag_light_desc;
+
+// Add a light.  AG_ERROR_ARGUMENT on NaN, a negative intensity or range, or a cone
+// that is not 0 <= inner < outer <= pi/2.
+AG_CHECK ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_light *light);
+
+typedef struct ag_camera_desc {
+    float position[3], target[3]; // m
+    float up[3];                  // 0 -> +Y
+    float fov_y_rad;              // vertical, perspective; 0 -> 45 degrees unless height_m is set
+    float height_m;               // of an orthographic view; 0 -> perspective
+    float near_m, far_m;          // 0 -> fitted to the scene
+    const char *name;             // copied; NULL -> none
+} ag_camera_desc;
+
+AG_CHECK ag_status ag_scene_add_camera(ag_scene *scene, const ag_camera_desc *desc,
+                                       ag_camera *camera);
+
+typedef enum ag_environment_kind {
+    AG_ENVIRONMENT_STUDIO = 0, // a procedural room with soft boxes
+    AG_ENVIRONMENT_SKY,        // a procedural clear sky without a sun disk
+    AG_ENVIRONMENT_IMAGE,
+    AG_ENVIRONMENT_NONE,       // black
+} ag_environment_kind;
+
+typedef struct ag_environment_desc {
+    ag_environment_kind kind;
+    const ag_image *image; // equirectangular, RGBA32F, nit; centre = +X, top = +Y; copied
+    float rotation_rad;    // counter-clockwise about +Y, seen from above
+    float intensity;       // factor; 0 -> 1
+} ag_environment_desc;
+
+// Set what surrounds the scene; a new scene has the studio.
+AG_CHECK ag_status ag_scene_set_environment(ag_scene *scene, const ag_environment_desc *desc);
+
+// ---- Asking it -------------------------------------------------------------
+
+typedef struct ag_scene_summary {
+    uint32_t meshes, materials, textures, instances, lights, cameras;
+    uint64_t vertices, triangles; // as drawn: summed over the instances
+    float bounds_min[3], bounds_max[3]; // m; all zero when nothing is visible
+    double load_ms, decode_ms;          // spent in ag_scene_load so far
+} ag_scene_summary;
+
+AG_API ag_scene_summary ag_scene_summarize(const ag_scene *scene);
+
+// The extensions a loaded file names.  `state`: what Argand does about it.  False past
+// the last.  Borrowed from the scene.
+typedef struct ag_extension_info {
+    const char *name;
+    bool required;
+    bool supported;
+} ag_extension_info;
+AG_API bool ag_scene_extension(const ag_scene *scene, size_t index, ag_extension_info *info);
+
+// Camera `index` (from 0) as it was added; false past the last.  `name` is borrowed.
+AG_API bool ag_scene_camera(const ag_scene *scene, size_t index, ag_camera_desc *desc);
+
+// Where a camera should stand.  Angles are degrees' cousins in radians: theta from +Z
+// towards +X, phi from +Y; radius in metres from the target.  NAN in a field -> chosen:
+// a three-quarter view from slightly above (theta 0.6, phi 1.25), at the distance where
+// the whole scene fits.  NAN in the target -> the centre of the scene's bounds.
+typedef struct ag_orbit {
+    float theta_rad, phi_rad, radius_m;
+    float target[3];
+    float fov_y_rad; // 0 -> 45 degrees
+} ag_orbit;
+
+// All fields NAN / defaults: the automatic view.
+AG_API ag_orbit ag_orbit_auto(void);
+
+// A camera on `orbit` for pictures of `aspect` = width / height.
+AG_API ag_camera_desc ag_scene_frame(const ag_scene *scene, const ag_orbit *orbit, float aspect);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

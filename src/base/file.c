@@ -1,0 +1,154 @@
+// Whole files: read into memory, written beside their place and renamed.
+#include "base/file.h"
+
+#include "base/log.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static ag_status read_all(const ag_log *log, const char *path, int fd, size_t size, void **data)
+{
+    char *bytes = malloc(size + 1);
+    if (!bytes)
+        return log_fail(log, AG_ERROR_MEMORY, "%s: no memory for %zu bytes", path, size);
+    size_t done = 0;
+    while (done < size) {
+        ssize_t n = read(fd, bytes + done, size - done);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n <= 0) {
+            free(bytes);
+            return log_fail(log, AG_ERROR_FILE, "%s: cannot be read: %s", path,
+                            n < 0 ? strerror(errno) : "it became shorter meanwhile");
+        }
+        done += (size_t)n;
+    }
+    bytes[size] = 0;
+    *data = bytes;
+    return AG_OK;
+}
+
+ag_status file_read(const ag_log *log, const char *path, size_t limit, void **data, size_t *size)
+{
+    *data = NULL;
+    *size = 0;
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (fd < 0)
+        return log_fail(log, AG_ERROR_FILE, "%s: cannot be opened: %s", path, strerror(errno));
+    ag_status status;
+    struct stat st;
+    if (fstat(fd, &st) != 0 || !S_ISREG(st.st_mode))
+        status = log_fail(log, AG_ERROR_FILE, "%s: is not a regular file", path);
+    else if ((uint64_t)st.st_size > limit)
+        status = log_fail(log, AG_ERROR_FILE, "%s: has %lld bytes, more than the limit of %zu", path,
+                          (long long)st.st_size, limit);
+    else
+        status = read_all(log, path, fd, (size_t)st.st_size, data);
+    close(fd);
+    if (!status)
+        *size = (size_t)st.st_size;
+    return status;
+}
+
+struct file_writer {
+    ag_log log;
+    char *path;
+    char *temporary;
+    int fd;
+};
+
+static void writer_free(file_writer *writer)
+{
+    if (writer->fd >= 0)
+        close(writer->fd);
+    free(writer->path);
+    free(writer->temporary);
+    free(writer);
+}
+
+ag_status file_writer_open(const ag_log *log, const char *path, file_writer **out)
+{
+    *out = NULL;
+    file_writer *writer = calloc(1, sizeof *writer);
+    size_t length = strlen(path);
+    char *copy = strdup(path), *temporary = malloc(length + 32);
+    if (!writer || !copy || !temporary) {
+        free(writer);
+        free(copy);
+        free(temporary);
+        return log_fail(log, AG_ERROR_MEMORY, "%s: no memory to write it", path);
+    }
+    *writer = (file_writer) { log_resolve(log), copy, temporary, -1 };
+    for (unsigned i = 0; i < 100; i++) { // a name of our own, whoever else writes there
+        snprintf(temporary, length + 32, "%s.%ld-%u.tmp", path, (long)getpid(), i);
+        writer->fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (writer->fd >= 0 || errno != EEXIST)
+            break;
+    }
+    if (writer->fd < 0) {
+        ag_status status =
+            log_fail(log, AG_ERROR_FILE, "%s: cannot be created: %s", path, strerror(errno));
+        writer_free(writer);
+        return status;
+    }
+    *out = writer;
+    return AG_OK;
+}
+
+ag_status file_writer_put(file_writer *writer, const void *data, size_t size)
+{
+    const char *bytes = data;
+    while (size) {
+        ssize_t n = write(writer->fd, bytes, size);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return log_fail(&writer->log, AG_ERROR_FILE, "%s: cannot be written: %s", writer->path,
+                            strerror(errno));
+        bytes += n;
+        size -= (size_t)n;
+    }
+    return AG_OK;
+}
+
+ag_status file_writer_commit(file_writer *writer)
+{
+    int closed = close(writer->fd);
+    writer->fd = -1;
+    if (closed != 0 || rename(writer->temporary, writer->path) != 0) {
+        ag_status status = log_fail(&writer->log, AG_ERROR_FILE, "%s: cannot be written: %s",
+                                    writer->path, strerror(errno));
+        unlink(writer->temporary);
+        writer_free(writer);
+        return status;
+    }
+    writer_free(writer);
+    return AG_OK;
+}
+
+void file_writer_abandon(file_writer *writer)
+{
+    if (!writer)
+        return;
+    unlink(writer->temporary);
+    writer_free(writer);
+}
+
+ag_status file_write(const ag_log *log, const char *path, const void *data, size_t size)
+{
+    file_writer *writer;
+    ag_status status = file_writer_open(log, path, &writer);
+    if (status)
+        return status;
+    status = file_writer_put(writer, data, size);
+    if (status) {
+        file_writer_abandon(writer);
+        return status;
+    }
+    return file_writer_commit(writer);
+}

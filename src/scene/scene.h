@@ -1,0 +1,78 @@
+// What a scene holds, for the modules that fill, bake and render it.
+//
+// The arrays grow only; item i has the public id i + 1.
+#ifndef AG_SCENE_SCENE_H
+#define AG_SCENE_SCENE_H
+
+#include <argand/scene.h>
+
+// As the renderer uploads it: 64 bytes.
+typedef struct scene_vertex {
+    float position[3];
+    float normal[3];
+    float tangent[4]; // w = handedness, +1 or -1
+    float uv[2][2];
+    uint16_t color[4]; // linear, unorm 16
+} scene_vertex;
+
+typedef struct scene_mesh {
+    scene_vertex *vertices;
+    uint32_t *indices; // triangles
+    uint32_t vertex_count, index_count;
+    float min[3], max[3]; // m, object space
+    bool has_colors;      // some colour is not white
+} scene_mesh;
+
+typedef struct scene_texture {
+    ag_image *image;       // shared between textures: see scene->images
+    ag_texture_desc desc;  // its `image` is NULL
+} scene_texture;
+
+typedef struct scene_instance {
+    uint32_t mesh;     // index
+    uint32_t material; // index; the scene's materials[0] is the default one
+    float world[16];   // column major
+} scene_instance;
+
+typedef struct scene_extension {
+    char name[64];
+    bool required, supported;
+} scene_extension;
+
+#define SCENE_ARRAY(type, name) \
+    type *name;                 \
+    size_t name##_count, name##_capacity
+
+struct ag_scene {
+    ag_log log;
+    SCENE_ARRAY(ag_image *, images); // owned; each once however many textures use it
+    SCENE_ARRAY(scene_texture, textures);
+    SCENE_ARRAY(ag_material_desc, materials); // [0] is the default material, id 0
+    SCENE_ARRAY(scene_mesh, meshes);
+    SCENE_ARRAY(scene_instance, instances);
+    SCENE_ARRAY(ag_light_desc, lights); // defaults filled in, direction normalised
+    SCENE_ARRAY(ag_camera_desc, cameras); // defaults filled in, name owned
+    SCENE_ARRAY(scene_extension, extensions);
+    ag_environment_kind environment_kind;
+    ag_image *environment; // RGBA32F equirectangular; NULL for AG_ENVIRONMENT_NONE
+    float environment_rotation_rad, environment_intensity;
+    double load_ms, decode_ms;
+    uint64_t revision; // rises with every change
+};
+
+// As ag_scene_add_texture, but takes the image over instead of copying it (also on
+// failure).  An image already in the scene is shared.
+AG_CHECK ag_status scene_adopt_texture(ag_scene *scene, ag_image *image,
+                                       const ag_texture_desc *desc, ag_texture *texture);
+
+// World-space bounds of everything visible; false when there is nothing.
+bool scene_bounds(const ag_scene *scene, float min[3], float max[3]);
+
+// Where scene arrays stood, to take back what a failed load appended.
+typedef struct scene_mark {
+    size_t images, textures, materials, meshes, instances, lights, cameras, extensions;
+} scene_mark;
+scene_mark scene_mark_now(const ag_scene *scene);
+void scene_rollback(ag_scene *scene, scene_mark mark);
+
+#endif
