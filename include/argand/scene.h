@@ -144,6 +144,7 @@ typedef struct ag_mesh_desc {
     const uint32_t *indices; // [index_count]; NULL -> 0, 1, 2, ...
     uint32_t index_count;    // a multiple of 3
     uint32_t tangent_uv_set; // the uv set that computed tangents follow
+    bool skip_tangents;      // no normal map will be used: any frame will do, nothing is split
 } ag_mesh_desc;
 
 AG_CHECK ag_status ag_scene_add_mesh(ag_scene *scene, const ag_mesh_desc *desc, ag_mesh *mesh);

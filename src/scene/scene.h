@@ -54,11 +54,19 @@ struct ag_scene {
     SCENE_ARRAY(ag_camera_desc, cameras); // defaults filled in, name owned
     SCENE_ARRAY(scene_extension, extensions);
     ag_environment_kind environment_kind;
-    ag_image *environment; // RGBA32F equirectangular; NULL for AG_ENVIRONMENT_NONE
+    ag_image *environment; // only for AG_ENVIRONMENT_IMAGE; see scene_environment_open
     float environment_rotation_rad, environment_intensity;
     double load_ms, decode_ms;
-    uint64_t revision; // rises with every change
+    uint64_t id;                   // no other scene has it, also none freed before
+    uint64_t revision;             // rises with every change
+    uint64_t environment_revision; // rises when the environment's kind or image changes
 };
+
+// What surrounds the scene as an RGBA32F equirectangular picture, before rotation and
+// intensity; NULL for AG_ENVIRONMENT_NONE.  The procedural ones are made by this call
+// (some milliseconds), so that a scene with an image of its own never pays for them.
+AG_CHECK ag_status scene_environment_open(const ag_scene *scene, const ag_image **image);
+void scene_environment_close(const ag_scene *scene, const ag_image *image); // NULL is allowed
 
 // As ag_scene_add_texture, but takes the image over instead of copying it (also on
 // failure).  An image already in the scene is shared.

@@ -1,0 +1,117 @@
+// Materials, checked and clamped to their ranges.
+#include "base/array.h"
+#include "base/log.h"
+#include "scene/scene.h"
+#include "scene/vector.h"
+
+ag_material_desc ag_material_default(void)
+{
+    return (ag_material_desc) {
+        .base_color = { 1.0f, 1.0f, 1.0f, 1.0f },
+        .metallic = 1.0f,
+        .roughness = 1.0f,
+        .normal_scale = 1.0f,
+        .occlusion_strength = 1.0f,
+        .ior = 1.5f,
+        .specular = 1.0f,
+        .specular_color = { 1.0f, 1.0f, 1.0f },
+        .alpha_cutoff = 0.5f,
+    };
+}
+
+// The texture uses of a material, by place, so that all are treated alike.
+enum { TEXTURE_USES = 7 };
+static void list_uses(ag_material_desc *desc, ag_texture_use *uses[TEXTURE_USES])
+{
+    uses[0] = &desc->base_color_texture;
+    uses[1] = &desc->metallic_roughness_texture;
+    uses[2] = &desc->normal_texture;
+    uses[3] = &desc->occlusion_texture;
+    uses[4] = &desc->emissive_texture;
+    uses[5] = &desc->specular_texture;
+    uses[6] = &desc->specular_color_texture;
+}
+
+static bool use_is_sound(const ag_scene *scene, const ag_texture_use *use)
+{
+    return use->texture.id <= scene->textures_count && use->uv_set <= 1 &&
+           all_finite(use->offset, 2) && all_finite(use->scale, 2) && isfinite(use->rotation_rad);
+}
+
+static bool numbers_are_finite(const ag_material_desc *desc)
+{
+    const float scalars[] = { desc->metallic,           desc->roughness, desc->normal_scale,
+                              desc->occlusion_strength, desc->ior,       desc->specular,
+                              desc->alpha_cutoff };
+    return all_finite(scalars, sizeof scalars / sizeof *scalars) &&
+           all_finite(desc->base_color, 4) && all_finite(desc->emissive, 3) &&
+           all_finite(desc->specular_color, 3);
+}
+
+static float clamp01(float value)
+{
+    return fminf(fmaxf(value, 0.0f), 1.0f);
+}
+
+static void clamp_ranges(ag_material_desc *desc)
+{
+    for (int i = 0; i < 4; i++)
+        desc->base_color[i] = clamp01(desc->base_color[i]);
+    for (int i = 0; i < 3; i++) {
+        desc->emissive[i] = fmaxf(desc->emissive[i], 0.0f);
+        desc->specular_color[i] = fmaxf(desc->specular_color[i], 0.0f);
+    }
+    desc->metallic = clamp01(desc->metallic);
+    desc->roughness = clamp01(desc->roughness);
+    desc->occlusion_strength = clamp01(desc->occlusion_strength);
+    desc->specular = clamp01(desc->specular);
+    desc->ior = desc->ior == 0.0f ? 0.0f : fmaxf(desc->ior, 1.0f);
+    desc->alpha_cutoff = fmaxf(desc->alpha_cutoff, 0.0f);
+}
+
+static void default_scales(ag_material_desc *desc)
+{
+    ag_texture_use *uses[TEXTURE_USES];
+    list_uses(desc, uses);
+    for (int i = 0; i < TEXTURE_USES; i++)
+        if (uses[i]->scale[0] == 0.0f && uses[i]->scale[1] == 0.0f)
+            uses[i]->scale[0] = uses[i]->scale[1] = 1.0f;
+}
+
+static ag_status check(const ag_scene *scene, ag_material_desc *desc)
+{
+    if (!numbers_are_finite(desc))
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                        "A material's number is infinite or not a number.");
+    if ((unsigned)desc->alpha_mode > AG_ALPHA_BLEND)
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                        "A material's alpha mode is none of the listed ones.");
+    ag_texture_use *uses[TEXTURE_USES];
+    list_uses(desc, uses);
+    for (int i = 0; i < TEXTURE_USES; i++)
+        if (!use_is_sound(scene, uses[i]))
+            return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                            "A material uses texture %u with uv set %u: the texture must be one of "
+                            "the scene's %zu, the set 0 or 1, the transform finite.",
+                            uses[i]->texture.id, uses[i]->uv_set, scene->textures_count);
+    return AG_OK;
+}
+
+ag_status ag_scene_add_material(ag_scene *scene, const ag_material_desc *desc,
+                                ag_material *material)
+{
+    *material = (ag_material) { 0 };
+    ag_material_desc made = *desc;
+    ag_status status = check(scene, &made);
+    if (status != AG_OK)
+        return status;
+    if (!array_reserve(&scene->materials, &scene->materials_capacity, scene->materials_count + 1,
+                       sizeof *scene->materials))
+        return log_fail(&scene->log, AG_ERROR_MEMORY, "There is no memory for a material.");
+    clamp_ranges(&made);
+    default_scales(&made);
+    material->id = (uint32_t)scene->materials_count;
+    scene->materials[scene->materials_count++] = made;
+    scene->revision++;
+    return AG_OK;
+}
