@@ -1,0 +1,20 @@
+// The place where a picture goes, looked at before any work is done.
+#ifndef CLI_OUTPUT_H
+#define CLI_OUTPUT_H
+
+#include "console.h"
+
+typedef enum output_verdict {
+    OUTPUT_FINE,
+    OUTPUT_UNKNOWN_KIND, // its name has no ending that Argand writes
+    OUTPUT_NO_PLACE,     // the folder is missing or not writable
+} output_verdict;
+
+// Judge `path`; says on `console` what is wrong.  `*format` is what the renderer should
+// make for it.
+output_verdict output_check(console *console, const char *path, ag_format *format);
+
+// Write the picture.  An interrupt meanwhile waits until the file is whole.
+ag_status output_save(console *console, const ag_image *image, const char *path);
+
+#endif

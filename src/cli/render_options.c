@@ -1,0 +1,170 @@
+// The options of `argand render`: their table, and what must not stand together.
+#include "render_options.h"
+
+#include "text.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static const choice tonemaps[] = {
+    { "none", AG_TONEMAP_NONE },
+    { "reinhard", AG_TONEMAP_REINHARD },
+    { "aces", AG_TONEMAP_ACES },
+    { "aces-narkowicz", AG_TONEMAP_ACES_NARKOWICZ },
+    { "neutral", AG_TONEMAP_NEUTRAL },
+    { "agx", AG_TONEMAP_AGX },
+    { NULL, 0 },
+};
+
+static const choice qualities[] = {
+    { "fast", AG_QUALITY_FAST },
+    { "default", AG_QUALITY_DEFAULT },
+    { "best", AG_QUALITY_BEST },
+    { NULL, 0 },
+};
+
+static const char *read_background(const char *value, void *field)
+{
+    background_choice *background = field;
+    if (strcmp(value, "env") == 0)
+        background->kind = AG_BACKGROUND_ENVIRONMENT;
+    else if (strcmp(value, "transparent") == 0)
+        background->kind = AG_BACKGROUND_TRANSPARENT;
+    else if (value_color(value, background->color))
+        background->kind = AG_BACKGROUND_COLOR;
+    else
+        return "is not env, transparent or a colour #rrggbb";
+    return NULL;
+}
+
+static const char *read_environment(const char *value, void *field)
+{
+    environment_choice *environment = field;
+    *environment = (environment_choice) { 0 };
+    if (strcmp(value, "studio") == 0)
+        environment->kind = AG_ENVIRONMENT_STUDIO;
+    else if (strcmp(value, "sky") == 0)
+        environment->kind = AG_ENVIRONMENT_SKY;
+    else if (strcmp(value, "none") == 0)
+        environment->kind = AG_ENVIRONMENT_NONE;
+    else if (!strpbrk(value, "./") && access(value, F_OK) != 0)
+        return "is neither studio, sky or none nor a file";
+    else
+        *environment = (environment_choice) { AG_ENVIRONMENT_IMAGE, value };
+    return NULL;
+}
+
+#define FIELD(member) offsetof(render_request, member)
+
+const option render_options[] = {
+    { "--output", "-o", "FILE", "picture.png", "where the picture goes: .png .jpg .webp .exr .hdr",
+      FIELD(output), value_text, NULL, 0 },
+    { "--size", NULL, "WxH", "1024x1024", "width and height in pixels (1024x1024)", FIELD(size),
+      value_size, NULL, 0 },
+    { "--camera", NULL, "NAME|INDEX", "0", "a camera of the file; the first is 0", FIELD(camera),
+      value_text, NULL, 0 },
+    { "--orbit", NULL, "THETA,PHI,R", "35,70,auto",
+      "degrees from +Z towards +X, degrees from +Y, metres; auto for any", FIELD(orbit),
+      value_orbit, NULL, FIELD(orbit_given) },
+    { "--target", NULL, "X,Y,Z", "0,1,0", "what the camera looks at, in metres; auto for any",
+      FIELD(target), value_target, NULL, FIELD(target_given) },
+    { "--fov", NULL, "DEGREES", "45", "vertical field of view (45)", FIELD(fov_rad),
+      value_fov_degrees, NULL, 0 },
+    { "--env", NULL, "FILE|studio|sky|none", "studio",
+      "what lights the scene: .hdr or .exr, or a procedural one (studio)", FIELD(environment),
+      read_environment, NULL, 0 },
+    { "--env-rotation", NULL, "DEGREES", "90", "turn it about +Y, counter-clockwise from above",
+      FIELD(environment_rotation_rad), value_degrees, NULL, 0 },
+    { "--env-intensity", NULL, "FACTOR", "1.5", "make it brighter or darker (1)",
+      FIELD(environment_intensity), value_factor, NULL, 0 },
+    { "--background", NULL, "env|transparent|#rrggbb", "transparent", "what is behind it all (env)",
+      FIELD(background), read_background, NULL, 0 },
+    { "--exposure", NULL, "FACTOR", "1", "a linear factor on the light (1)", FIELD(exposure),
+      value_factor, NULL, FIELD(exposure_given) },
+    { "--ev100", NULL, "EV", "0", "or as a camera counts it: the factor 1 / (1.2 * 2^EV)",
+      FIELD(ev100), value_ev100, NULL, FIELD(ev100_given) },
+    { "--tonemap", NULL, "CURVE", "neutral",
+      "none, reinhard, aces, aces-narkowicz, neutral or agx (neutral)", FIELD(tonemap), NULL,
+      tonemaps, 0 },
+    { "--quality", NULL, "LEVEL", "best", "fast, default or best (default)", FIELD(quality), NULL,
+      qualities, 0 },
+    { "--device", NULL, "auto|cpu|INDEX|NAME", "cpu",
+      "what computes; `argand devices` lists them (auto)", FIELD(device), value_text, NULL, 0 },
+    { "--validate", NULL, NULL, "", "watch the use of Vulkan; a message fails the command",
+      FIELD(validate), NULL, NULL, 0 },
+    { "--json", NULL, NULL, "", "print one JSON object: sizes, device, milliseconds, memory",
+      FIELD(json), NULL, NULL, 0 },
+    { "--quiet", "-q", NULL, "", "print errors only", FIELD(quiet), NULL, NULL, 0 },
+    { "--verbose", "-v", NULL, "", "say what is chosen and done", FIELD(verbose), NULL, NULL, 0 },
+    { 0 },
+};
+
+static bool refuse(const char *sentence)
+{
+    fprintf(stderr, "argand: %s\n", sentence);
+    return false;
+}
+
+static bool known_demo(const char *name)
+{
+    const char *names[64], *about;
+    size_t count = 0;
+    while (count < 64 && ag_scene_demo(count, &names[count], &about)) {
+        if (strcmp(names[count], name) == 0)
+            return true;
+        count++;
+    }
+    const char *near = text_nearest(name, names, count);
+    fprintf(stderr, "argand: demo:%s: there is no such built-in scene; ", name);
+    if (near)
+        fprintf(stderr, "did you mean demo:%s?\n", near);
+    else
+        fputs("`argand demo` lists them.\n", stderr);
+    return false;
+}
+
+// What each option alone cannot know.
+static bool sound(const render_request *r)
+{
+    if (!r->input)
+        return refuse("render: which file? Try: argand render model.glb -o picture.png");
+    if (!r->output)
+        return refuse("render: where should the picture go? Add: -o picture.png");
+    if (r->camera && (r->orbit_given || r->target_given))
+        return refuse("--camera takes a camera of the file; --orbit and --target place one: give "
+                      "one or the other.");
+    if (r->exposure_given && r->ev100_given)
+        return refuse("--exposure and --ev100 say the same in two ways; give one of them.");
+    if (r->quiet && r->verbose)
+        return refuse("--quiet and --verbose contradict each other; give one of them.");
+    return strncmp(r->input, "demo:", 5) != 0 || known_demo(r->input + 5);
+}
+
+bool render_request_parse(render_request *r, int argc, char **argv, bool *help)
+{
+    *r = (render_request) {
+        .size = { 1024, 1024 },
+        .orbit = { NAN, NAN, NAN },
+        .target = { NAN, NAN, NAN },
+        .environment_intensity = 1,
+        .exposure = 1,
+        .device = "auto",
+    };
+    option_set set = {
+        .command = "render",
+        .options = render_options,
+        .fields = r,
+        .operands = &r->input,
+        .operand_capacity = 1,
+    };
+    if (!options_parse(&set, argc, argv))
+        return false;
+    *help = set.help;
+    if (set.help)
+        return true;
+    if (r->ev100_given) // the luminance that saturates, 1.2 * 2^EV100, becomes 1 (ISO 2720, 12232)
+        r->exposure = 1 / (1.2f * exp2f(r->ev100));
+    return sound(r);
+}

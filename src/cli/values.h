@@ -1,0 +1,35 @@
+// Values of options, read strictly: the whole text must be the value, and NaN, infinity and
+// what a float cannot hold are refused.  Each is an option_reader (options.h).
+#ifndef CLI_VALUES_H
+#define CLI_VALUES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct picture_size {
+    uint32_t width, height; // px
+} picture_size;
+
+// A text taken as it is, not empty; `field` is a const char *, borrowed from argv.
+const char *value_text(const char *value, void *field);
+
+// WxH; a picture_size of at most 2^28 pixels.
+const char *value_size(const char *value, void *field);
+
+// Finite numbers; `field` is a float.
+const char *value_degrees(const char *value, void *field);     // any; radians in the field
+const char *value_fov_degrees(const char *value, void *field); // (0, 180); radians
+const char *value_factor(const char *value, void *field);      // above 0
+const char *value_ev100(const char *value, void *field);       // [-32, 32]
+
+// Three numbers, "auto" for any; `field` is float[3] with NAN where automatic.
+const char *value_orbit(const char *value, void *field);  // degrees, degrees, metres; radians
+const char *value_target(const char *value, void *field); // metres
+
+// #rrggbb; `field` is float[3], sRGB-coded in [0, 1].
+bool value_color(const char *value, float color[3]);
+
+// An index: digits only, below 2^31; false for anything else.
+bool value_index(const char *value, uint32_t *index);
+
+#endif
