@@ -43,10 +43,15 @@ static bool unknown(const option_set *set, const char *name, size_t length)
     return false;
 }
 
+// An example with a character that the shell takes for itself is quoted.
+static const char *quote_for(const option *o)
+{
+    return strchr(o->example, '#') ? "'" : "";
+}
+
 static bool refuse(const option *o, const char *value, const char *complaint)
 {
-    // An example with a character that the shell takes for itself is quoted.
-    const char *quote = strpbrk(o->example, "#|*? ") ? "'" : "";
+    const char *quote = quote_for(o);
     fprintf(stderr, "argand: %s: '%s' %s; try %s %s%s%s\n", o->name, value, complaint, o->name,
             quote, o->example, quote);
     return false;
@@ -102,7 +107,9 @@ static bool parse_option(option_set *set, cursor *at)
         return apply(set, o, equals ? equals + 1 : NULL);
     // A negative number is a value, another option is not.
     if (at->next >= at->argc || strncmp(at->argv[at->next], "--", 2) == 0) {
-        fprintf(stderr, "argand: %s needs a value; try %s '%s'\n", o->name, o->name, o->example);
+        const char *quote = quote_for(o);
+        fprintf(stderr, "argand: %s needs a value; try %s %s%s%s\n", o->name, o->name, quote,
+                o->example, quote);
         return false;
     }
     return apply(set, o, at->argv[at->next++]);

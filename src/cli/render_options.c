@@ -79,7 +79,7 @@ const option render_options[] = {
       FIELD(environment_rotation_rad), value_degrees, NULL, 0 },
     { "--env-intensity", NULL, "FACTOR", "1.5", "make it brighter or darker (1)",
       FIELD(environment_intensity), value_factor, NULL, 0 },
-    { "--background", NULL, "env|transparent|#rrggbb", "transparent", "what is behind it all (env)",
+    { "--background", NULL, "env|transparent|#rrggbb", "#ffffff", "what is behind it all (env)",
       FIELD(background), read_background, NULL, 0 },
     { "--exposure", NULL, "FACTOR", "1", "a linear factor on the light (1)", FIELD(exposure),
       value_factor, NULL, FIELD(exposure_given) },
