@@ -1,0 +1,15 @@
+// The built-in scenes; each fills an empty stage.
+#ifndef AG_SCENE_DEMO_H
+#define AG_SCENE_DEMO_H
+
+#include "scene/stage.h"
+
+void demo_spheres(stage *s);
+void demo_grid(stage *s);
+void demo_materials(stage *s);
+void demo_furnace(stage *s);
+void demo_lights(stage *s);
+void demo_million(stage *s);
+void demo_nodes(stage *s);
+
+#endif
