@@ -107,6 +107,24 @@ static int put(spng_ctx *png, void *user, void *bytes, size_t size)
     return to->status ? SPNG_IO_ERROR : 0;
 }
 
+// The speed of both libraries lies in their searches.  Measured on rendered pictures:
+// Paeth's filter alone with runs alone is four times as fast as the choice among all
+// filters with full matching, at about the same size.
+static int set_effort(spng_ctx *png, int compression)
+{
+    static const int run_lengths = 3; // zlib's Z_RLE
+    bool fast = compression <= 2;
+    int filters = compression == 1 ? SPNG_FILTER_CHOICE_UP
+                  : fast           ? SPNG_FILTER_CHOICE_PAETH
+                                   : SPNG_FILTER_CHOICE_ALL;
+    int error = spng_set_option(png, SPNG_IMG_COMPRESSION_LEVEL, fast ? 1 : compression);
+    if (!error)
+        error = spng_set_option(png, SPNG_FILTER_CHOICE, filters);
+    if (!error && fast)
+        error = spng_set_option(png, SPNG_IMG_COMPRESSION_STRATEGY, run_lengths);
+    return error;
+}
+
 static int begin(spng_ctx *png, const ag_image *image, bool opaque, int compression)
 {
     struct spng_ihdr header = {
@@ -119,7 +137,7 @@ static int begin(spng_ctx *png, const ag_image *image, bool opaque, int compress
     if (!error)
         error = spng_set_srgb(png, 0);
     if (!error)
-        error = spng_set_option(png, SPNG_IMG_COMPRESSION_LEVEL, compression);
+        error = set_effort(png, compression);
     if (!error)
         error = spng_encode_image(png, NULL, 0, SPNG_FMT_PNG,
                                   SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE);
