@@ -1,26 +1,27 @@
 # Completion of argand(1) for bash.  The options come from `argand help COMMAND`.
+_argand_options() {
+    argand help "$1" 2>/dev/null | sed -n 's/^  \(-[a-z], \)\{0,1\}\(--[a-z0-9-]*\).*/\2/p'
+}
+
 _argand() {
-    local word=$2 before=$3 command=${COMP_WORDS[1]}
-    COMPREPLY=()
-    if [ "$COMP_CWORD" -eq 1 ]; then
-        COMPREPLY=($(compgen -W 'render info devices demo help --version' -- "$word"))
-        return
-    fi
+    local word=$2 before=$3 words= files=
     case $before in
-    --tonemap) COMPREPLY=($(compgen -W 'none reinhard aces aces-narkowicz neutral agx' -- "$word")) ;;
-    --quality) COMPREPLY=($(compgen -W 'fast default best' -- "$word")) ;;
-    --background) COMPREPLY=($(compgen -W 'env transparent' -- "$word")) ;;
-    --env) COMPREPLY=($(compgen -W 'studio sky none' -- "$word") $(compgen -f -- "$word")) ;;
-    --device) COMPREPLY=($(compgen -W 'auto cpu' -- "$word")) ;;
-    help) COMPREPLY=($(compgen -W 'render info devices demo' -- "$word")) ;;
+    argand | */argand) words='render info devices demo help --version' ;;
+    --tonemap) words='none reinhard aces aces-narkowicz neutral agx' ;;
+    --quality) words='fast default best' ;;
+    --background) words='env transparent' ;;
+    --env) words='studio sky none' files=1 ;;
+    --device) words='auto cpu' ;;
+    help) words='render info devices demo' ;;
     *)
         if [[ $word == -* ]]; then
-            COMPREPLY=($(compgen -W "$(argand help "$command" 2>/dev/null |
-                grep -o -e '^  --[a-z0-9-]*' -e '^  -[a-z], --[a-z-]*' | sed 's/.*--/--/')" -- "$word"))
+            words=$(_argand_options "${COMP_WORDS[1]}")
         else
-            COMPREPLY=($(compgen -f -- "$word"))
+            files=1
         fi
         ;;
     esac
+    COMPREPLY=($(compgen -W "$words" -- "$word"))
+    [ -z "$files" ] || COMPREPLY+=($(compgen -f -- "$word"))
 }
 complete -o filenames -F _argand argand

@@ -45,8 +45,8 @@ ag_status file_read(const ag_log *log, const char *path, size_t limit, void **da
     if (fstat(fd, &st) != 0 || !S_ISREG(st.st_mode))
         status = log_fail(log, AG_ERROR_FILE, "%s: is not a regular file", path);
     else if ((uint64_t)st.st_size > limit)
-        status = log_fail(log, AG_ERROR_FILE, "%s: has %lld bytes, more than the limit of %zu", path,
-                          (long long)st.st_size, limit);
+        status = log_fail(log, AG_ERROR_FILE, "%s: has %lld bytes, more than the limit of %zu",
+                          path, (long long)st.st_size, limit);
     else
         status = read_all(log, path, fd, (size_t)st.st_size, data);
     close(fd);

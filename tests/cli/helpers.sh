@@ -1,0 +1,35 @@
+# Sourced by the tests of argand(1).  $argand is the program, $json the checker of JSON.
+argand=$1 json=$2 root=$(cd "$(dirname "$0")/../.." && pwd)
+triangle=$root/tests/cli/triangle.gltf
+here=$(mktemp -d)
+trap 'chmod -R u+w "$here"; rm -rf "$here"' EXIT
+cd "$here"
+
+fail() {
+    echo "FAILED: $*"
+    [ ! -s out ] || { echo "standard output:"; head -20 out; }
+    [ ! -s err ] || { echo "standard error:"; head -20 err; }
+    exit 1
+}
+
+# expect CODE TEXT ARGUMENT...: the exit code, and what a line of standard error contains;
+# a failure says exactly one sentence and prints nothing else.
+expect() {
+    code=$1 text=$2
+    shift 2
+    set +e
+    "$argand" "$@" >out 2>err
+    got=$?
+    set -e
+    [ "$got" -eq "$code" ] || fail "exit code $got, not $code: argand $*"
+    grep -qF -- "$text" err || fail "standard error lacks '$text': argand $*"
+    [ "$code" -eq 0 ] && return 0
+    [ ! -s out ] || fail "a failure printed something: argand $*"
+    [ "$(wc -l <err)" -eq 1 ] || fail "not one line: argand $*"
+}
+
+# nothing_left: no picture and no temporary file lies about.
+nothing_left() {
+    left=$(ls -A | grep -vx -e out -e err -e log || true)
+    [ -z "$left" ] || fail "left behind: $left"
+}

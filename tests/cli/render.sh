@@ -1,0 +1,96 @@
+#!/bin/sh
+# The command line with pictures, on the processor's Vulkan device.
+#
+#   render.sh ARGAND JSON_HAS
+set -eu
+. "$(dirname "$0")/helpers.sh"
+small="--size 64x48 --device cpu"
+
+# Every kind of picture, told by its first bytes.
+magic() { # magic FILE OFFSET HEX
+    got=$(od -An -tx1 -j"$2" -N"$((${#3} / 2))" "$1" | tr -d ' \n')
+    [ "$got" = "$3" ] || fail "$1 begins with $got"
+}
+for kind in png jpg jpeg webp exr hdr; do
+    "$argand" render "$triangle" -o x.$kind $small >out 2>err || fail "render to .$kind"
+    [ "$(wc -l <out)" -eq 1 ] || fail "one line on standard output"
+    grep -q "^x.$kind: 64x48 pixels in [0-9.]* s on " out || fail "the closing line"
+done
+magic x.png 0 89504e470d0a1a0a
+magic x.png 16 0000004000000030
+magic x.jpg 0 ffd8ff
+magic x.jpeg 0 ffd8ff
+magic x.webp 8 57454250
+magic x.exr 0 762f3101
+magic x.hdr 0 233f
+rm x.*
+
+# In a pipe no progress bar, on a terminal one, nothing with --quiet.
+"$argand" render "$triangle" -o x.png $small --quiet >out 2>err || fail "--quiet"
+[ ! -s out ] && [ ! -s err ] || fail "--quiet says something"
+"$argand" render "$triangle" -o x.png $small 2>err >out || fail "render"
+[ ! -s err ] || fail "a bar where there is no terminal"
+if command -v script >/dev/null; then
+    TERM=xterm script -qec "'$argand' render '$triangle' -o x.png $small" /dev/null >log </dev/null
+    grep -q '%' log || fail "no bar on a terminal"
+    rm log
+fi
+
+# One JSON object with all its parts.
+"$argand" render "$triangle" -o x.png $small --json >out 2>err || fail "--json"
+"$json" out output=x.png width=64 height=48 device.name device.kind=cpu triangles=1 draws=1 \
+    ms.load ms.decode ms.bake ms.compile ms.upload ms.frame ms.readback ms.encode ms.total \
+    ms.device ms.environment peak_memory_bytes || fail "--json lacks something"
+"$argand" render "$triangle" -o x.png $small --json --validate >out 2>err || fail "--validate"
+"$json" out validation_messages=0 || fail "validation messages"
+
+# Every option that takes a word, once each, works.
+for option in --tonemap=none --tonemap=reinhard --tonemap=aces --tonemap=aces-narkowicz \
+    --tonemap=agx --quality=fast --quality=best --env=sky --env=none --background=transparent \
+    --background=#336699 --camera=0 --camera=front --fov=20 --target=0,auto,1 --ev100=1 \
+    --orbit=-30,75,auto --env-rotation=90 --env-intensity=.5 --exposure=2e0 --verbose; do
+    "$argand" render "$triangle" -o x.png $small "$option" >out 2>err || fail "$option"
+done
+# A camera through its name is the same camera as through its index; another one is not.
+"$argand" render "$triangle" -o a.png $small --camera front >out
+"$argand" render "$triangle" -o b.png $small --camera 0 >out
+"$argand" render "$triangle" -o c.png $small >out
+cmp -s a.png b.png || fail "--camera by name and by index differ"
+cmp -s a.png c.png && fail "--camera has no effect"
+rm ./*.png
+
+# What only shows once the files are read.
+expect 1 "has no camera 'back'; it has 0 (front)" render "$triangle" -o x.png $small --camera back
+expect 1 "it has 0 (front)" render "$triangle" -o x.png $small --camera 1
+expect 1 "none.hdr" render "$triangle" -o x.png $small --env none.hdr
+expect 1 "triangle.gltf" render "$triangle" -o x.png $small --env "$triangle"
+expect 1 "none.glb" render none.glb -o x.png $small
+expect 1 "no-such-device" render "$triangle" -o x.png --device no-such-device
+nothing_left
+
+# A picture as --env is refused: it does not hold light.
+"$argand" render "$triangle" -o picture.png $small >out
+expect 1 "--env needs a Radiance .hdr or OpenEXR .exr file" \
+    render "$triangle" -o x.png $small --env picture.png
+rm picture.png
+nothing_left
+
+# A disk that is full: one sentence, no picture, no part of one; an old picture stays.
+"$argand" render "$triangle" -o old.png --size 8x8 --device cpu >out
+cp old.png before
+(
+    ulimit -f 1
+    ARGAND_NO_CACHE=1 MESA_SHADER_CACHE_DISABLE=true \
+        "$argand" render "$triangle" -o old.png --size 800x600 --device cpu >out 2>err
+) && fail "a full disk is no success"
+grep -q 'old.png: .*File too large' err || fail "a full disk says so"
+cmp -s old.png before || fail "the old picture is gone"
+rm old.png before
+nothing_left
+
+# No driver: one sentence with the way out.
+VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent
+export VK_DRIVER_FILES VK_ICD_FILENAMES
+expect 1 "mesa-vulkan-drivers" render "$triangle" -o x.png
+expect 1 "mesa-vulkan-drivers" devices
+nothing_left
