@@ -12,6 +12,8 @@ endforeach()
 target_link_libraries(argand PRIVATE ${targets})
 target_link_libraries(argand_static PUBLIC ${targets} m)
 target_link_libraries(argand PRIVATE m)
+target_link_options(argand PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/argand.map)
+set_property(TARGET argand APPEND PROPERTY LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/argand.map)
 target_include_directories(argand INTERFACE
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
 set_target_properties(argand PROPERTIES

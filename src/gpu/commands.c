@@ -112,8 +112,8 @@ ag_status gpu_commands_submit(gpu_device *device, gpu_commands *commands)
         .commandBufferInfoCount = 1,
         .pCommandBufferInfos = &buffer,
     };
-    status =
-        gpu_check(device, vkQueueSubmit2(device->queue, 1, &info, commands->fence), "vkQueueSubmit2");
+    VkResult result = vkQueueSubmit2(device->queue, 1, &info, commands->fence);
+    status = gpu_check(device, result, "vkQueueSubmit2");
     commands->pending = !status;
     return status;
 }

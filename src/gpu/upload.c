@@ -31,7 +31,8 @@ void gpu_upload_finish(gpu_upload *upload)
 
 static ag_status next_slot(gpu_upload *upload)
 {
-    ag_status status = gpu_commands_submit(upload->device, &upload->slots[upload->current].commands);
+    gpu_upload_slot *slot = &upload->slots[upload->current];
+    ag_status status = gpu_commands_submit(upload->device, &slot->commands);
     if (status)
         return status;
     upload->current ^= 1;
