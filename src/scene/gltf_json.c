@@ -170,7 +170,7 @@ ag_status gltf_uint(const gltf_at *object, const char *key, uint64_t max, uint64
 
 ag_status gltf_item_index(const gltf_at *item, size_t count, const char *what, uint32_t *index)
 {
-    uint64_t value;
+    uint64_t value = 0;
     ag_status status = read_uint(item, GLTF_NONE - 1, &value);
     if (status)
         return status;
@@ -202,7 +202,7 @@ static ag_status read_number(const gltf_at *at, double *value)
 
 ag_status gltf_item_float(const gltf_at *item, float *value)
 {
-    double number;
+    double number = 0;
     ag_status status = read_number(item, &number);
     if (!status)
         *value = (float)number;

@@ -1,0 +1,133 @@
+// What the host hands to the shaders: one text, scalar block layout on both sides.
+#ifndef AG_INTEROP_SCENE_GLSL
+#define AG_INTEROP_SCENE_GLSL
+
+#ifdef GL_core_profile
+#extension GL_EXT_scalar_block_layout : require
+#define float2 vec2
+#define float3 vec3
+#define float4 vec4
+#define float4x4 mat4
+#define STRUCT_BEGIN(name) struct name {
+#define STRUCT_END(name)   };
+#else
+#include <stdint.h>
+typedef uint32_t uint;
+typedef struct float2 {
+    float x, y;
+} float2;
+typedef struct float3 {
+    float x, y, z;
+} float3;
+typedef struct float4 {
+    float x, y, z, w;
+} float4;
+typedef struct float4x4 {
+    float m[4][4]; // column major
+} float4x4;
+#define STRUCT_BEGIN(name) typedef struct name {
+#define STRUCT_END(name) \
+    }                    \
+    name;
+#endif
+
+// One view of the scene.
+STRUCT_BEGIN(gpu_frame)
+    float4x4 clip_from_world;
+    // Point (x, y) of clip space, each in [-1, 1], is seen from `eye` along
+    // ray_center + x ray_x + y ray_y; an orthographic view looks along ray_center.
+    float3 eye;
+    float orthographic; // 1 or 0
+    float3 ray_center;
+    float background_lod; // level of the equirectangular image
+    float3 ray_x;
+    float exposure; // linear factor, the environment's intensity excluded
+    float3 ray_y;
+    float environment_intensity;
+    float environment_cos; // of the environment's rotation about +Y
+    float environment_sin;
+    float environment_mips; // levels of the prefiltered cube
+    uint light_count;
+    float3 sh[9]; // radiance of the environment, order 2
+STRUCT_END(gpu_frame)
+
+// The kinds of gpu_light.
+#define GPU_LIGHT_POINT       0u
+#define GPU_LIGHT_SPOT        1u
+#define GPU_LIGHT_DIRECTIONAL 2u
+
+STRUCT_BEGIN(gpu_light)
+    float3 position; // m, world space
+    float inverse_range2;
+    float3 intensity; // cd, or lux when directional
+    uint kind;
+    float3 direction; // unit, the way the light travels
+    float2 cone;      // light_spot_cone()
+STRUCT_END(gpu_light)
+
+STRUCT_BEGIN(gpu_instance)
+    float4 rows[3]; // of the affine matrix world_from_object
+STRUCT_END(gpu_instance)
+
+// The textures of a material, in the order of their bindings and of the bits of the
+// constant TEXTURES.
+#define GPU_TEXTURE_BASE_COLOR         0
+#define GPU_TEXTURE_METALLIC_ROUGHNESS 1
+#define GPU_TEXTURE_NORMAL             2
+#define GPU_TEXTURE_OCCLUSION          3
+#define GPU_TEXTURE_EMISSIVE           4
+#define GPU_TEXTURE_SPECULAR           5
+#define GPU_TEXTURE_SPECULAR_COLOR     6
+#define GPU_TEXTURE_COUNT              7
+
+STRUCT_BEGIN(gpu_material)
+    float4 base_color;
+    float3 emissive; // nit
+    float metallic;
+    float3 specular_color;
+    float specular;
+    float roughness;
+    float dielectric_f0;
+    float normal_scale;
+    float occlusion_strength;
+    float alpha_cutoff;
+    uint uv1; // bit t: texture t uses uv set 1
+    float3 uv_u[GPU_TEXTURE_COUNT]; // u' = dot(uv_u, (u, v, 1))
+    float3 uv_v[GPU_TEXTURE_COUNT];
+STRUCT_END(gpu_material)
+
+// How the fragment shader of surfaces is specialised: constants 0 to 7.
+STRUCT_BEGIN(gpu_surface_constants)
+    uint textures;    // bit t: texture t is sampled
+    uint general_uv;  // some texture has a transform or uses uv set 1
+    uint alpha_mode;  // GPU_ALPHA_
+    uint unlit;
+    uint environment; // there is one
+    uint lights;      // how many; GPU_LIGHTS_ANY = as the frame says
+    uint tone;        // TONEMAP_ of tonemap.glsl, or GPU_TONE_LINEAR
+    uint samples;     // of a pixel
+STRUCT_END(gpu_surface_constants)
+
+#define GPU_ALPHA_OPAQUE 0u
+#define GPU_ALPHA_MASK   1u
+#define GPU_ALPHA_BLEND  2u
+#define GPU_LIGHTS_ANY   0xffffffffu
+#define GPU_TONE_LINEAR  0xffu // leave the radiance as it is: something comes after
+
+// Constants of the passes that follow, pushed.
+STRUCT_BEGIN(gpu_resolve)
+    float4 background; // linear, display-referred, under the picture; alpha 0 = none
+    float weight;      // of this picture in the sum
+STRUCT_END(gpu_resolve)
+
+#ifndef GL_core_profile
+_Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 9 * 12, "gpu_frame");
+_Static_assert(sizeof(gpu_light) == 16 + 16 + 12 + 8, "gpu_light");
+_Static_assert(sizeof(gpu_instance) == 48, "gpu_instance");
+_Static_assert(sizeof(gpu_material) == 16 + 16 + 16 + 24 + 2 * GPU_TEXTURE_COUNT * 12,
+               "gpu_material");
+_Static_assert(sizeof(gpu_surface_constants) == 32, "gpu_surface_constants");
+_Static_assert(sizeof(gpu_resolve) == 20, "gpu_resolve");
+#endif
+
+#endif

@@ -1,0 +1,41 @@
+// The renderer's state.
+#ifndef AG_RENDER_RENDERER_H
+#define AG_RENDER_RENDERER_H
+
+#include "gpu/commands.h"
+#include "render/bindings.h"
+#include "render/geometry.h"
+#include "render/materials.h"
+#include "render/pipelines.h"
+#include "render/surround.h"
+#include "render/targets.h"
+#include "render/textures.h"
+
+// What of a scene is on the device.
+typedef struct resident {
+    uint64_t scene, revision, environment_revision; // what it was made from
+    geometry geometry;
+    textures textures;
+    materials materials;
+    gpu_buffer lights; // gpu_light
+    uint32_t light_count;
+    surround surround;
+} resident;
+
+struct ag_renderer {
+    gpu_device *device;
+    bindings bindings;
+    pipelines pipelines;
+    targets targets;
+    resident resident;
+    gpu_buffer frame;     // gpu_frame
+    gpu_buffer instances; // gpu_instance
+    gpu_commands commands;
+};
+
+// Have `scene` on the device: what is there and unchanged is kept.
+AG_CHECK ag_status resident_ensure(ag_renderer *renderer, const ag_scene *scene,
+                                   bool background_wanted, ag_render_stats *stats);
+void resident_destroy(gpu_device *device, resident *r); // zero is allowed
+
+#endif

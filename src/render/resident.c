@@ -1,0 +1,121 @@
+// What of a scene is on the device.
+#include "render/renderer.h"
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "physics/light_punctual.glsl"
+
+#include <math.h>
+#include <stdlib.h>
+
+static gpu_light pack_light(const ag_light_desc *d)
+{
+    vec2 cone = light_spot_cone(cosf(d->cone_inner_rad), cosf(d->cone_outer_rad));
+    return (gpu_light) {
+        .position = { d->position[0], d->position[1], d->position[2] },
+        .inverse_range2 = d->range_m > 0 ? 1 / (d->range_m * d->range_m) : 0,
+        .intensity = { d->color[0] * d->intensity, d->color[1] * d->intensity,
+                       d->color[2] * d->intensity },
+        .kind = d->kind == AG_LIGHT_DIRECTIONAL ? GPU_LIGHT_DIRECTIONAL
+                : d->kind == AG_LIGHT_SPOT      ? GPU_LIGHT_SPOT
+                                                : GPU_LIGHT_POINT,
+        .direction = { d->direction[0], d->direction[1], d->direction[2] },
+        .cone = { cone[0], cone[1] },
+    };
+}
+
+static ag_status make_lights(gpu_device *device, const ag_scene *scene, resident *r)
+{
+    r->light_count = (uint32_t)scene->lights_count;
+    ag_status status =
+        gpu_buffer_create(device, r->light_count * sizeof(gpu_light),
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, GPU_MEMORY_UPLOAD, &r->lights);
+    if (status)
+        return status;
+    gpu_light *lights = r->lights.memory.mapped;
+    for (uint32_t i = 0; i < r->light_count; i++)
+        lights[i] = pack_light(&scene->lights[i]);
+    return AG_OK;
+}
+
+static void destroy_things(gpu_device *device, resident *r)
+{
+    geometry_destroy(device, &r->geometry);
+    materials_destroy(device, &r->materials);
+    textures_destroy(device, &r->textures);
+    gpu_buffer_destroy(device, &r->lights);
+    r->scene = 0;
+}
+
+static ag_status make_things(ag_renderer *renderer, const ag_scene *scene, gpu_upload *upload)
+{
+    gpu_device *device = renderer->device;
+    resident *r = &renderer->resident;
+    destroy_things(device, r);
+    ag_status status = geometry_create(device, scene, upload, &r->geometry);
+    if (!status)
+        status = textures_create(device, scene, upload, &r->textures);
+    if (!status)
+        status =
+            materials_create(device, &renderer->bindings, scene, &r->textures, &r->materials);
+    if (!status)
+        status = make_lights(device, scene, r);
+    if (status)
+        destroy_things(device, r);
+    return status;
+}
+
+static ag_status make_surround(ag_renderer *renderer, const ag_scene *scene, bool background,
+                               gpu_upload *upload, ag_render_stats *stats)
+{
+    const ag_image *equirect;
+    surround_destroy(renderer->device, &renderer->resident.surround);
+    double start = clock_ms();
+    ag_status status = scene_environment_open(scene, &equirect);
+    double opened = clock_ms() - start;
+    if (status)
+        return status;
+    status = surround_create(renderer->device, equirect, background, upload,
+                             &stats->environment_cached, &stats->bake_ms,
+                             &renderer->resident.surround);
+    stats->bake_ms += opened;
+    scene_environment_close(scene, equirect);
+    return status;
+}
+
+ag_status resident_ensure(ag_renderer *renderer, const ag_scene *scene, bool background_wanted,
+                          ag_render_stats *stats)
+{
+    resident *r = &renderer->resident;
+    bool other = r->scene != scene->id;
+    bool things = other || r->revision != scene->revision;
+    bool around = other || !r->surround.dfg.image ||
+                  r->environment_revision != scene->environment_revision ||
+                  (background_wanted && r->surround.present && !r->surround.image_wanted);
+    if (!things && !around)
+        return AG_OK;
+    double start = clock_ms();
+    gpu_upload upload;
+    ag_status status = gpu_upload_begin(renderer->device, &upload);
+    if (!status && things)
+        status = make_things(renderer, scene, &upload);
+    if (!status && around)
+        status = make_surround(renderer, scene, background_wanted, &upload, stats);
+    if (!status)
+        status = gpu_upload_end(&upload);
+    gpu_upload_finish(&upload);
+    stats->upload_ms = clock_ms() - start - stats->bake_ms;
+    if (status)
+        return status;
+    r->scene = scene->id;
+    r->revision = scene->revision;
+    r->environment_revision = scene->environment_revision;
+    return AG_OK;
+}
+
+void resident_destroy(gpu_device *device, resident *r)
+{
+    destroy_things(device, r);
+    surround_destroy(device, &r->surround);
+    *r = (resident) { 0 };
+}

@@ -1,0 +1,51 @@
+// The shaders of shaders/passes/, compiled into the library.
+#include "render/shaders.h"
+
+static const uint32_t surface_vert[] =
+#include "surface.vert.inc"
+    ;
+static const uint32_t surface_frag[] =
+#include "surface.frag.inc"
+    ;
+static const uint32_t fullscreen_vert[] =
+#include "fullscreen.vert.inc"
+    ;
+static const uint32_t background_frag[] =
+#include "background.frag.inc"
+    ;
+static const uint32_t accumulate_frag[] =
+#include "accumulate.frag.inc"
+    ;
+static const uint32_t resolve_frag[] =
+#include "resolve.frag.inc"
+    ;
+
+gpu_shader shader_surface_vert(void)
+{
+    return (gpu_shader) { surface_vert, sizeof surface_vert };
+}
+
+gpu_shader shader_surface_frag(void)
+{
+    return (gpu_shader) { surface_frag, sizeof surface_frag };
+}
+
+gpu_shader shader_fullscreen_vert(void)
+{
+    return (gpu_shader) { fullscreen_vert, sizeof fullscreen_vert };
+}
+
+gpu_shader shader_background_frag(void)
+{
+    return (gpu_shader) { background_frag, sizeof background_frag };
+}
+
+gpu_shader shader_accumulate_frag(void)
+{
+    return (gpu_shader) { accumulate_frag, sizeof accumulate_frag };
+}
+
+gpu_shader shader_resolve_frag(void)
+{
+    return (gpu_shader) { resolve_frag, sizeof resolve_frag };
+}

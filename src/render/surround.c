@@ -1,0 +1,131 @@
+// The environment on the device: what lights the surfaces, and what is seen behind them.
+#include "render/surround.h"
+
+#include "bake/dfg.h"
+#include "bake/environment.h"
+#include "base/clock.h"
+#include "base/log.h"
+#include "image/half.h"
+#include "image/image.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ag_status upload_levels(gpu_device *device, gpu_upload *upload, const gpu_image_desc *desc,
+                               uint32_t texel, const void *data, gpu_image *image)
+{
+    gpu_image_desc full = *desc;
+    full.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    ag_status status = gpu_image_create(device, &full, image);
+    if (status)
+        return status;
+    const char *bytes = data;
+    gpu_upload_image_begin(upload, image);
+    for (uint32_t mip = 0; mip < image->desc.mips && !status; mip++) {
+        size_t width = full.width >> mip ? full.width >> mip : 1;
+        size_t height = full.height >> mip ? full.height >> mip : 1;
+        for (uint32_t layer = 0; layer < (full.cube ? 6u : 1u) && !status; layer++) {
+            status = gpu_upload_image_level(upload, image, mip, layer, texel, bytes);
+            bytes += width * height * texel;
+        }
+    }
+    gpu_upload_image_end(upload, image);
+    return status;
+}
+
+static ag_status upload_cube(gpu_device *device, gpu_upload *upload, const bake_environment *baked,
+                             gpu_image *cube)
+{
+    const gpu_image_desc desc = { .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                  .width = baked->size,
+                                  .height = baked->size,
+                                  .mips = baked->mip_count,
+                                  .cube = true };
+    return upload_levels(device, upload, &desc, 8, baked->cube, cube);
+}
+
+// The picture itself as half floats.
+static ag_status upload_image(gpu_device *device, gpu_upload *upload, const ag_image *equirect,
+                              gpu_image *image)
+{
+    const gpu_image_desc desc = { .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                  .width = equirect->width,
+                                  .height = equirect->height };
+    size_t values = (size_t)equirect->width * equirect->height * 4;
+    if (equirect->width > device->info.max_size || equirect->height > device->info.max_size)
+        return log_fail(&device->log, AG_ERROR_UNSUPPORTED,
+                        "an environment of %ux%u pixels is more than the %u of %s",
+                        equirect->width, equirect->height, device->info.max_size,
+                        device->info.name);
+    uint16_t *halves = malloc(values * sizeof *halves);
+    if (!halves)
+        return log_fail(&device->log, AG_ERROR_MEMORY, "no memory for the environment");
+    half_from_floats_clamped(equirect->pixels, halves, values);
+    ag_status status = upload_levels(device, upload, &desc, 8, halves, image);
+    free(halves);
+    return status;
+}
+
+static ag_status upload_black(gpu_device *device, gpu_upload *upload, bool cube, gpu_image *image)
+{
+    static const uint16_t black[6][4];
+    const gpu_image_desc desc = {
+        .format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = 1, .height = 1, .cube = cube
+    };
+    return upload_levels(device, upload, &desc, 8, black, image);
+}
+
+static ag_status upload_dfg(gpu_device *device, gpu_upload *upload, gpu_image *dfg)
+{
+    uint16_t table[BAKE_DFG_SIZE * BAKE_DFG_SIZE * 2];
+    const gpu_image_desc desc = { .format = VK_FORMAT_R16G16_SFLOAT,
+                                  .width = BAKE_DFG_SIZE,
+                                  .height = BAKE_DFG_SIZE };
+    bake_dfg(table);
+    return upload_levels(device, upload, &desc, 4, table, dfg);
+}
+
+ag_status surround_create(gpu_device *device, const ag_image *equirect, bool image_wanted,
+                          gpu_upload *upload, bool *cached, double *bake_ms, surround *s)
+{
+    *s = (surround) { .present = equirect != NULL, .image_wanted = image_wanted && equirect };
+    *cached = false;
+    double start = clock_ms();
+    bake_environment baked = { 0 };
+    ag_status status = AG_OK;
+    if (equirect)
+        status = bake_environment_make(&device->log, equirect, &baked, cached);
+    if (!status)
+        status = upload_dfg(device, upload, &s->dfg);
+    *bake_ms = clock_ms() - start;
+
+    memcpy(s->sh, baked.sh, sizeof s->sh);
+    if (!status)
+        status = equirect ? upload_cube(device, upload, &baked, &s->cube)
+                          : upload_black(device, upload, true, &s->cube);
+    if (!status)
+        status = s->image_wanted ? upload_image(device, upload, equirect, &s->image)
+                                 : upload_black(device, upload, false, &s->image);
+    bake_environment_finish(&baked);
+    if (status)
+        surround_destroy(device, s);
+    return status;
+}
+
+void surround_destroy(gpu_device *device, surround *s)
+{
+    gpu_image_destroy(device, &s->cube);
+    gpu_image_destroy(device, &s->image);
+    gpu_image_destroy(device, &s->dfg);
+    *s = (surround) { 0 };
+}
+
+void surround_frame(const surround *s, const ag_scene *scene, gpu_frame *frame)
+{
+    frame->environment_intensity = scene->environment_intensity;
+    frame->environment_cos = cosf(scene->environment_rotation_rad);
+    frame->environment_sin = sinf(scene->environment_rotation_rad);
+    frame->environment_mips = (float)s->cube.desc.mips;
+    memcpy(frame->sh, s->sh, sizeof frame->sh);
+}

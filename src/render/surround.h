@@ -1,0 +1,27 @@
+// The environment on the device: what lights the surfaces, and what is seen behind them.
+#ifndef AG_RENDER_SURROUND_H
+#define AG_RENDER_SURROUND_H
+
+#include "gpu/upload.h"
+#include "scene/scene.h"
+
+#include "interop/scene.glsl"
+
+typedef struct surround {
+    bool present;      // false: black, and the images are stand-ins
+    gpu_image cube;    // prefiltered
+    gpu_image image;   // equirectangular; a stand-in until it is needed
+    bool image_wanted; // the image is the real one
+    gpu_image dfg;
+    float sh[9][3];
+} surround;
+
+// `equirect` NULL: none.  `image_wanted`: the background shows it.
+AG_CHECK ag_status surround_create(gpu_device *device, const ag_image *equirect, bool image_wanted,
+                                   gpu_upload *upload, bool *cached, double *bake_ms, surround *s);
+void surround_destroy(gpu_device *device, surround *s); // zero is allowed
+
+// The environment's part of a frame.
+void surround_frame(const surround *s, const ag_scene *scene, gpu_frame *frame);
+
+#endif
