@@ -36,11 +36,17 @@ static bool try(char path[CACHE_PATH_MAX], const char *root, const char *below, 
     return length > 0 && length < CACHE_PATH_MAX && make_folders(path);
 }
 
+bool cache_wanted(void)
+{
+    const char *none = getenv("ARGAND_NO_CACHE");
+    return !none || !*none || strcmp(none, "0") == 0;
+}
+
 bool cache_directory(const char *part, char path[CACHE_PATH_MAX])
 {
-    const char *none = getenv("ARGAND_NO_CACHE"), *own = getenv("ARGAND_CACHE_DIR");
+    const char *own = getenv("ARGAND_CACHE_DIR");
     const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    if (none && *none && strcmp(none, "0") != 0)
+    if (!cache_wanted())
         return false;
     if (own && *own)
         return try(path, own, "", part);

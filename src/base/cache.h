@@ -7,6 +7,9 @@
 
 #include <stdbool.h>
 
+// False when ARGAND_NO_CACHE says so.
+bool cache_wanted(void);
+
 enum { CACHE_PATH_MAX = 4096 };
 
 // The path of the cache's folder `part`, made if it is not there; false when there is
