@@ -202,7 +202,7 @@ void bake_cache_trim(const char *folder, size_t limit)
         if (!array_reserve(&entries, &capacity, count + 1, sizeof *entries))
             break;
         entry *e = &entries[count++];
-        snprintf(e->name, sizeof e->name, "%s", d->d_name);
+        memcpy(e->name, d->d_name, strlen(d->d_name) + 1); // below 64, see above
         e->used = st.st_mtim;
         e->bytes = (size_t)st.st_size;
         total += e->bytes;

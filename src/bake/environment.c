@@ -56,7 +56,7 @@ typedef struct conversion {
 static void convert_row(void *context, size_t index)
 {
     const conversion *c = context;
-    half_from_floats(c->from + index * c->row, c->to + index * c->row, c->row);
+    half_from_floats_clamped(c->from + index * c->row, c->to + index * c->row, c->row);
 }
 
 static void store_base(const cube *c, bake_environment *e)
@@ -64,7 +64,7 @@ static void store_base(const cube *c, bake_environment *e)
     for (uint32_t face = 0; face < 6; face++) {
         for (uint32_t y = 0; y < e->size; y++) {
             uint16_t *to = e->cube + 4 * (size_t)(face * e->size + y) * e->size;
-            half_from_floats(cube_texel(&c->levels[0], face, 0, (int32_t)y), to, 4 * e->size);
+            half_from_floats_clamped(cube_texel(&c->levels[0], face, 0, (int32_t)y), to, 4 * e->size);
         }
     }
 }
