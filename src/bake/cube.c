@@ -86,21 +86,26 @@ typedef struct reduction {
     cube_level *to;
 } reduction;
 
-// Four texels become one, each by its solid angle, so that no light is lost.
-static void reduce_row(void *context, size_t index)
+// Four texels become one, each by its solid angle, so that no light is lost; row y of
+// every face.
+static void reduce_row(void *context, size_t y)
 {
     const reduction *r = context;
-    uint32_t size = r->to->size, face = (uint32_t)index / size, y = (uint32_t)index % size;
-    float t0 = cube_coordinate(2 * size, 2 * y), t1 = cube_coordinate(2 * size, 2 * y + 1);
+    uint32_t size = r->to->size;
+    float t0 = cube_coordinate(2 * size, 2 * (uint32_t)y);
+    float t1 = cube_coordinate(2 * size, 2 * (uint32_t)y + 1);
     for (uint32_t x = 0; x < size; x++) {
         float s0 = cube_coordinate(2 * size, 2 * x), s1 = cube_coordinate(2 * size, 2 * x + 1);
         float a = texel_weight(s0, t0), b = texel_weight(s1, t0);
         float c = texel_weight(s0, t1), d = texel_weight(s1, t1);
-        const float *p = cube_texel(r->from, face, 2 * (int32_t)x, 2 * (int32_t)y);
-        const float *q = p + 4 * (size_t)(r->from->size + 2);
-        f32x4 sum = *(const f32x4 *)p * a + *(const f32x4 *)(p + 4) * b + *(const f32x4 *)q * c +
-                    *(const f32x4 *)(q + 4) * d;
-        *(f32x4 *)cube_texel(r->to, face, (int32_t)x, (int32_t)y) = sum / (a + b + c + d);
+        float scale = 1.0f / (a + b + c + d);
+        for (uint32_t face = 0; face < 6; face++) {
+            const float *p = cube_texel(r->from, face, 2 * (int32_t)x, 2 * (int32_t)y);
+            const float *q = p + 4 * (size_t)(r->from->size + 2);
+            f32x4 sum = *(const f32x4 *)p * a + *(const f32x4 *)(p + 4) * b +
+                        *(const f32x4 *)q * c + *(const f32x4 *)(q + 4) * d;
+            *(f32x4 *)cube_texel(r->to, face, (int32_t)x, (int32_t)y) = sum * scale;
+        }
     }
 }
 
@@ -109,7 +114,7 @@ void cube_complete(cube *c)
     fill_borders(&c->levels[0]);
     for (uint32_t i = 1; i < c->level_count; i++) {
         reduction r = { &c->levels[i - 1], &c->levels[i] };
-        parallel_for(6 * (size_t)r.to->size, reduce_row, &r);
+        parallel_for(r.to->size, reduce_row, &r);
         fill_borders(&c->levels[i]);
     }
 }

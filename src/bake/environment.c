@@ -16,10 +16,10 @@
 
 enum {
     FORMAT_VERSION = 1, // of what is baked: raise it when the same pixels give another result
-    SIZE_MIN = 128,
-    SIZE_MAX = 512,
-    SIZE_LAST = 8,       // px, of the last mip, roughness 1
-    HARMONICS_SIZE = 64, // px, of the level that the coefficients are made from
+    EDGE_MIN = 128,
+    EDGE_MAX = 512,
+    EDGE_LAST = 8,       // px, of the last mip, roughness 1
+    HARMONICS_EDGE = 32, // px, of the level that the coefficients are made from
 };
 
 size_t bake_environment_mip_offset(uint32_t size, uint32_t mip)
@@ -33,8 +33,8 @@ size_t bake_environment_mip_offset(uint32_t size, uint32_t mip)
 // The power of two nearest, as a ratio, to the texels that cover a quarter of the horizon.
 static uint32_t cube_size(uint32_t width)
 {
-    uint32_t size = SIZE_MIN;
-    while (size < SIZE_MAX && (double)size * 4.0 * 1.41421356 < width)
+    uint32_t size = EDGE_MIN;
+    while (size < EDGE_MAX && (double)size * 4.0 * 1.41421356 < width)
         size *= 2;
     return size;
 }
@@ -42,7 +42,7 @@ static uint32_t cube_size(uint32_t width)
 static uint32_t mip_count_of(uint32_t size)
 {
     uint32_t count = 1;
-    while (size >> (count - 1) > SIZE_LAST)
+    while (size >> (count - 1) > EDGE_LAST)
         count++;
     return count;
 }
@@ -94,7 +94,7 @@ static bool bake(const ag_image *image, bake_environment *e)
     if (done) {
         cube_complete(&c);
         uint32_t level = 0;
-        while (c.levels[level].size > HARMONICS_SIZE)
+        while (c.levels[level].size > HARMONICS_EDGE)
             level++;
         harmonics_project(&c.levels[level], e->sh);
         store_base(&c, e);
