@@ -71,8 +71,8 @@ static uint64_t content_hash(const bake_environment *e)
 
 static bool entry_path(char path[CACHE_PATH_MAX], const char *folder, uint64_t key)
 {
-    int length = snprintf(path, CACHE_PATH_MAX, "%s/%016llx%s", folder, (unsigned long long)key,
-                          ENDING);
+    int length =
+        snprintf(path, CACHE_PATH_MAX, "%s/%016llx%s", folder, (unsigned long long)key, ENDING);
     return length > 0 && length < CACHE_PATH_MAX;
 }
 

@@ -13,8 +13,8 @@
 enum { CUBE_LEVELS_MAX = 10 };
 
 typedef struct cube_level {
-    uint32_t size;  // texels of an edge, without the borders
-    float *texels;  // RGBA [6][size + 2][size + 2]
+    uint32_t size; // texels of an edge, without the borders
+    float *texels; // RGBA [6][size + 2][size + 2]
 } cube_level;
 
 typedef struct cube {

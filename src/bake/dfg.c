@@ -7,8 +7,8 @@
 // steps in the other, which is even and periodic.
 #include "bake/dfg.h"
 
-#include "base/threads.h"
 #include "bake/wide.h"
+#include "base/threads.h"
 #include "image/half.h"
 
 enum {

@@ -64,7 +64,8 @@ static void store_base(const cube *c, bake_environment *e)
     for (uint32_t face = 0; face < 6; face++) {
         for (uint32_t y = 0; y < e->size; y++) {
             uint16_t *to = e->cube + 4 * (size_t)(face * e->size + y) * e->size;
-            half_from_floats_clamped(cube_texel(&c->levels[0], face, 0, (int32_t)y), to, 4 * e->size);
+            half_from_floats_clamped(cube_texel(&c->levels[0], face, 0, (int32_t)y), to,
+                                     4 * e->size);
         }
     }
 }
@@ -112,8 +113,8 @@ static uint64_t key_of(const ag_image *image)
     return bake_cache_hash(image->pixels, sizeof(float[4]) * image->width * image->height, seed);
 }
 
-ag_status bake_environment_make(const ag_log *log, const ag_image *equirect,
-                                bake_environment *out, bool *cached)
+ag_status bake_environment_make(const ag_log *log, const ag_image *equirect, bake_environment *out,
+                                bool *cached)
 {
     *out = (bake_environment) { 0 };
     if (cached)
@@ -138,8 +139,8 @@ ag_status bake_environment_make(const ag_log *log, const ag_image *equirect,
     if (!bake(equirect, &e)) {
         bake_environment_finish(&e);
         return log_fail(log, AG_ERROR_MEMORY,
-                        "no memory to prepare an environment of %u x %u pixels",
-                        equirect->width, equirect->height);
+                        "no memory to prepare an environment of %u x %u pixels", equirect->width,
+                        equirect->height);
     }
     bake_cache_store(log, key, &e);
     *out = e;

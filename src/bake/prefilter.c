@@ -7,7 +7,14 @@
 #include "physics/environment.glsl"
 #include "physics/microfacet.glsl"
 
-enum { SAMPLES = 64 };
+// Where there are few texels there may be many samples, and the wide lobes that are kept
+// in such levels need them.
+enum { SAMPLES_MAX = 256 };
+
+static int sample_count(uint32_t size)
+{
+    return size > 64 ? 32 : size > 32 ? 64 : SAMPLES_MAX;
+}
 
 typedef struct lobe_sample {
     float x, y, z; // direction about +Z
@@ -16,34 +23,36 @@ typedef struct lobe_sample {
 } lobe_sample;
 
 typedef struct lobe {
-    lobe_sample samples[SAMPLES];
+    lobe_sample samples[SAMPLES_MAX];
+    int count;
     uint32_t size;
     float *texels;
 } lobe;
 
-// The level whose texels have the solid angle that sample `density` (1/sr) stands for.
+// The level whose texels have the solid angle, 1 / `density` sr, that a sample stands for;
+// a little finer, since a bilinear tap is wider than a texel (least error, by trial).
 static const cube_level *level_for(const cube *environment, float density)
 {
     float texel = 4.0f * PI / 6.0f; // of a face of one texel, sr
-    float edge = sqrtf(texel * density * SAMPLES);
+    float edge = sqrtf(texel * density);
     float level = log2f((float)environment->levels[0].size / edge);
-    int i = (int)(level + 0.5f);
+    int i = (int)(level + 0.25f);
     int last = (int)environment->level_count - 1;
     return &environment->levels[i < 0 ? 0 : i > last ? last : i];
 }
 
 // The half vectors lie on a Vogel spiral over the disk that the distribution's inverse maps
-// to the hemisphere: as even as 64 points get, and the same for all texels.
+// to the hemisphere: as even as points get, and the same for all texels.
 static void make_samples(lobe *l, const cube *environment, float alpha)
 {
     float a2 = alpha * alpha, sum = 0.0f;
     float golden = PI * (3.0f - sqrtf(5.0f));
-    for (int i = 0; i < SAMPLES; i++) {
+    for (int i = 0; i < l->count; i++) {
         // Normals beyond 45 degrees reflect the light below the horizon: u ends there.
-        float u = ((float)i + 0.5f) / (SAMPLES * (1.0f + a2));
+        float u = ((float)i + 0.5f) / ((float)l->count * (1.0f + a2));
         float cos2 = (1.0f - u) / (1.0f + (a2 - 1.0f) * u); // Walter et al. 2007, eq. 35
         float c = sqrtf(cos2), s = sqrtf(1.0f - cos2), phi = (float)i * golden;
-        float density = microfacet_d(c, a2) * 0.25f * (1.0f + a2);
+        float density = microfacet_d(c, a2) * 0.25f * (1.0f + a2) * (float)l->count;
         lobe_sample *p = &l->samples[i];
         *p = (lobe_sample) {
             .x = 2.0f * s * c * cosf(phi),
@@ -54,7 +63,7 @@ static void make_samples(lobe *l, const cube *environment, float alpha)
         p->weight = p->z;
         sum += p->z;
     }
-    for (int i = 0; i < SAMPLES; i++)
+    for (int i = 0; i < l->count; i++)
         l->samples[i].weight /= sum;
 }
 
@@ -78,11 +87,11 @@ WIDE_INLINE void fill_row_body(const lobe *l, uint32_t face, uint32_t y)
         f32x8 bx = ny * tz - nz * ty, by = nz * tx - nx * tz, bz = nx * ty - ny * tx;
 
         f32x4 sum[8] = { { 0 } };
-        for (int i = 0; i < SAMPLES; i++) {
+        for (int i = 0; i < l->count; i++) {
             const lobe_sample *p = &l->samples[i];
-            cube_hit hit = cube_find(p->level->size, tx * p->x + bx * p->y + nx * p->z,
-                                     ty * p->x + by * p->y + ny * p->z,
-                                     tz * p->x + bz * p->y + nz * p->z);
+            cube_hit hit =
+                cube_find(p->level->size, tx * p->x + bx * p->y + nx * p->z,
+                          ty * p->x + by * p->y + ny * p->z, tz * p->x + bz * p->y + nz * p->z);
             for (int k = 0; k < 8; k++)
                 sum[k] += cube_fetch(p->level, &hit, k) * p->weight;
         }
@@ -99,7 +108,7 @@ static void fill_row_task(void *context, size_t index)
 
 void prefilter(const cube *environment, float roughness, uint32_t size, float *texels)
 {
-    lobe l = { .size = size, .texels = texels };
+    lobe l = { .size = size, .texels = texels, .count = sample_count(size) };
     make_samples(&l, environment, roughness * roughness);
     parallel_for(6 * (size_t)size, fill_row_task, &l);
 }
