@@ -58,6 +58,8 @@ static ag_status load_scene(work *w)
 static ag_status set_environment(work *w)
 {
     const render_request *r = w->request;
+    if (!r->environment_given)
+        return AG_OK; // the studio, or what a built-in scene brought along
     if (r->environment.kind == AG_ENVIRONMENT_IMAGE &&
         ag_image_format(w->environment) != AG_FORMAT_RGBA32F) {
         console_say(&w->console, AG_LOG_ERROR,
@@ -260,7 +262,8 @@ const command command_render = {
         "FILE is a glTF 2.0 file, .gltf with its files or .glb.  Without --camera the scene is\n"
         "framed automatically, from three quarters and slightly above; a built-in scene is\n"
         "seen from its own camera.  Without --env a procedural studio with soft boxes lights\n"
-        "it; the lights of the file always shine.  The picture appears whole or not at all.\n"
+        "it, or what a built-in scene brings along; the lights of the file always shine.\n"
+        "The picture appears whole or not at all.\n"
         "In .exr and .hdr it is linear light times the exposure, without a tone curve.\n",
     .options = render_options,
     .examples = "  argand render helmet.glb -o helmet.png\n"

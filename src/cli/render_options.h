@@ -33,6 +33,7 @@ typedef struct render_request {
     const char *device;
     bool validate, json, quiet, verbose;
     bool orbit_given, target_given, exposure_given, ev100_given;
+    bool environment_given; // or its rotation, or its intensity
 } render_request;
 
 extern const option render_options[];
