@@ -64,7 +64,8 @@ static ag_status fill(const ag_scene *scene, gpu_upload *upload, const geometry 
     return status;
 }
 
-ag_status geometry_create(gpu_device *device, const ag_scene *scene, gpu_upload *upload, geometry *g)
+ag_status geometry_create(gpu_device *device, const ag_scene *scene, gpu_upload *upload,
+                          geometry *g)
 {
     *g = (geometry) { 0 };
     uint64_t vertices = 0, indices = 0;
@@ -76,8 +77,9 @@ ag_status geometry_create(gpu_device *device, const ag_scene *scene, gpu_upload 
             &g->vertices);
     if (!status)
         status = gpu_buffer_create(
-            device, indices * 4, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-            GPU_MEMORY_DEVICE, &g->indices);
+            device, indices * 4,
+            VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_MEMORY_DEVICE,
+            &g->indices);
     if (!status)
         status = fill(scene, upload, g);
     if (status)

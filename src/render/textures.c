@@ -186,7 +186,8 @@ static ag_status upload_white(gpu_device *device, gpu_upload *upload, textures *
     return status;
 }
 
-ag_status textures_create(gpu_device *device, const ag_scene *scene, gpu_upload *upload, textures *t)
+ag_status textures_create(gpu_device *device, const ag_scene *scene, gpu_upload *upload,
+                          textures *t)
 {
     *t = (textures) { 0 };
     ag_status status = index_images(scene, t);
