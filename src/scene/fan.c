@@ -204,12 +204,13 @@ static bool has_facing(facing f)
     return f == FACING_SAME || f == FACING_MIRRORED;
 }
 
+// Projected twice: the first time leaves mostly noise of a vector along the normal.
 static fan_frame frame_of(const group *g, vec3 normal)
 {
-    fan_frame frame = { project(g->sum, normal), g->facing == FACING_MIRRORED ? -1.0f : 1.0f };
-    if (vec3_is_zero(frame.tangent))
-        frame.tangent = vec3_perpendicular(normal);
-    return frame;
+    vec3 once = project(g->sum, normal), twice = project(once, normal);
+    bool sound = vec3_dot(once, twice) > 0.999f;
+    return (fan_frame) { sound ? twice : vec3_perpendicular(normal),
+                         g->facing == FACING_MIRRORED ? -1.0f : 1.0f };
 }
 
 // Sum each group's tangents into its root; returns the root with the longest sum, whose frame

@@ -168,7 +168,7 @@ static void test_lights_get_defaults(void **state)
     const ag_light_desc *a = &scene->lights[0], *b = &scene->lights[1];
     assert_true(a->direction[1] == -1.0f && b->direction[2] == -1.0f);
     assert_true(a->color[0] == 1.0f && a->color[1] == 1.0f && a->color[2] == 1.0f);
-    assert_float_equal(a->cone_outer_rad, 0.78539816, 1e-6);
+    assert_near(a->cone_outer_rad, 0.78539816, 1e-6);
     ag_scene_destroy(scene);
 }
 

@@ -39,6 +39,9 @@ static inline ag_scene *make_scene(sentences *s)
     return scene;
 }
 
+#define assert_near(value, wanted, tolerance)                                                      \
+    assert_true(fabs((double)(value) - (double)(wanted)) <= (double)(tolerance))
+
 // Repeatable noise in [0, 1).
 static inline float noise(uint32_t *state)
 {

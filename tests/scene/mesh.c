@@ -90,11 +90,11 @@ static void test_flat_normals(void **state)
         const scene_vertex *v = &mesh->vertices[mesh->indices[i]];
         assert_memory_equal(v->position, roof + 3 * sides[i], sizeof v->position);
         assert_memory_equal(v->uv[1], uvs + 2 * sides[i], sizeof v->uv[1]);
-        assert_float_equal(v->normal[0], i < 3 ? -h : h, 1e-6);
-        assert_float_equal(v->normal[1], h, 1e-6);
-        assert_float_equal(v->normal[2], 0, 1e-6);
-        assert_float_equal(dot3(v->tangent, v->normal), 0, 1e-6);
-        assert_float_equal(dot3(v->tangent, v->tangent), 1, 1e-6);
+        assert_near(v->normal[0], i < 3 ? -h : h, 1e-6);
+        assert_near(v->normal[1], h, 1e-6);
+        assert_near(v->normal[2], 0, 1e-6);
+        assert_near(dot3(v->tangent, v->normal), 0, 1e-6);
+        assert_near(dot3(v->tangent, v->tangent), 1, 1e-6);
     }
     ag_scene_destroy(scene);
 }
@@ -110,13 +110,13 @@ static void test_flat_normals_of_every_size(void **state)
         const float positions[9] = { 0, 0, 0, 0, size, 0, 0, 0, size };
         ag_mesh_desc d = { .positions = positions, .vertex_count = 3 };
         const scene_mesh *mesh = add(scene, &d);
-        assert_float_equal(mesh->vertices[0].normal[0], 1, 1e-6);
+        assert_near(mesh->vertices[0].normal[0], 1, 1e-6);
     }
     // No area at all: some unit normal.
     const float line[9] = { 0, 0, 0, 1, 0, 0, 2, 0, 0 };
     ag_mesh_desc d = { .positions = line, .vertex_count = 3 };
     const scene_mesh *mesh = add(scene, &d);
-    assert_float_equal(dot3(mesh->vertices[1].normal, mesh->vertices[1].normal), 1, 1e-6);
+    assert_near(dot3(mesh->vertices[1].normal, mesh->vertices[1].normal), 1, 1e-6);
     ag_scene_destroy(scene);
 }
 
@@ -137,9 +137,9 @@ static void test_normals_are_mended(void **state)
     const float z[3] = { 0, 0, 1 }, x[3] = { 1, 0, 0 };
     assert_int_equal(mesh->vertex_count, 5);
     for (int i = 0; i < 3; i++) // from the triangles, from a long normal, from the triangles
-        assert_float_equal(dot3(mesh->vertices[i].normal, z), 1, 1e-6);
-    assert_float_equal(dot3(mesh->vertices[3].normal, x), 1, 1e-6);
-    assert_float_equal(dot3(mesh->vertices[4].normal, mesh->vertices[4].normal), 1, 1e-6);
+        assert_near(dot3(mesh->vertices[i].normal, z), 1, 1e-6);
+    assert_near(dot3(mesh->vertices[3].normal, x), 1, 1e-6);
+    assert_near(dot3(mesh->vertices[4].normal, mesh->vertices[4].normal), 1, 1e-6);
     ag_scene_destroy(scene);
 }
 
@@ -158,8 +158,8 @@ static void test_given_tangents_are_kept(void **state)
     assert_memory_equal(mesh->vertices[0].tangent, first, sizeof first);
     assert_memory_equal(mesh->vertices[1].tangent, second, sizeof second);
     const scene_vertex *mended = &mesh->vertices[2];
-    assert_float_equal(dot3(mended->tangent, mended->normal), 0, 1e-6);
-    assert_float_equal(dot3(mended->tangent, mended->tangent), 1, 1e-6);
+    assert_near(dot3(mended->tangent, mended->normal), 0, 1e-6);
+    assert_near(dot3(mended->tangent, mended->tangent), 1, 1e-6);
     assert_true(mended->tangent[3] == 1.0f);
     ag_scene_destroy(scene);
 }

@@ -153,7 +153,7 @@ static void test_mirrored_halves_are_split(void **state)
         const scene_vertex *v = &mesh->vertices[mesh->indices[i]];
         float side = i < 6 ? -1.0f : 1.0f;
         assert_memory_equal(v->position, positions + 3 * indices[i], sizeof v->position);
-        assert_float_equal(v->tangent[0], side, 1e-6);
+        assert_near(v->tangent[0], side, 1e-6);
         assert_true(v->tangent[3] == side);
     }
     ag_scene_destroy(scene);
@@ -177,10 +177,10 @@ static void test_angles_weigh(void **state)
     const scene_mesh *mesh = add(scene, positions, flat_normals, uvs, 4, indices, 6);
     assert_int_equal(mesh->vertex_count, 4);
     double pi = acos(-1.0), x = pi / 2 + pi / 4 * sqrt(0.5), y = pi / 4 * sqrt(0.5);
-    assert_float_equal(mesh->vertices[0].tangent[0], x / hypot(x, y), 1e-6);
-    assert_float_equal(mesh->vertices[0].tangent[1], y / hypot(x, y), 1e-6);
-    assert_float_equal(mesh->vertices[1].tangent[0], 1, 1e-6);
-    assert_float_equal(mesh->vertices[3].tangent[1], sqrt(0.5), 1e-6);
+    assert_near(mesh->vertices[0].tangent[0], x / hypot(x, y), 1e-6);
+    assert_near(mesh->vertices[0].tangent[1], y / hypot(x, y), 1e-6);
+    assert_near(mesh->vertices[1].tangent[0], 1, 1e-6);
+    assert_near(mesh->vertices[3].tangent[1], sqrt(0.5), 1e-6);
     ag_scene_destroy(scene);
 }
 
@@ -195,8 +195,8 @@ static void test_triangles_without_a_common_edge_stay_apart(void **state)
     const uint32_t indices[6] = { 0, 1, 2, 0, 3, 4 };
     const scene_mesh *mesh = add(scene, positions, flat_normals, uvs, 5, indices, 6);
     assert_int_equal(mesh->vertex_count, 6);
-    assert_float_equal(mesh->vertices[mesh->indices[0]].tangent[1], 0, 1e-6);
-    assert_float_equal(mesh->vertices[mesh->indices[3]].tangent[1], sqrt(0.5), 1e-6);
+    assert_near(mesh->vertices[mesh->indices[0]].tangent[1], 0, 1e-6);
+    assert_near(mesh->vertices[mesh->indices[3]].tangent[1], sqrt(0.5), 1e-6);
     ag_scene_destroy(scene);
 }
 
@@ -215,8 +215,8 @@ static void test_a_triangle_without_uv_area_links_its_neighbours(void **state)
     const scene_mesh *mesh = add(scene, positions, flat_normals, uvs, 5, indices, 9);
     check_frames(mesh);
     assert_int_equal(mesh->vertex_count, 5);
-    assert_float_equal(mesh->vertices[0].tangent[0], sqrt(0.5), 1e-6);
-    assert_float_equal(mesh->vertices[0].tangent[1], sqrt(0.5), 1e-6);
+    assert_near(mesh->vertices[0].tangent[0], sqrt(0.5), 1e-6);
+    assert_near(mesh->vertices[0].tangent[1], sqrt(0.5), 1e-6);
     ag_scene_destroy(scene);
 }
 
@@ -417,7 +417,7 @@ static void test_second_uv_set(void **state)
     ag_mesh mesh;
     assert_int_equal(ag_scene_add_mesh(scene, &desc, &mesh), AG_OK);
     const float *t = scene->meshes[0].vertices[0].tangent; // u = y, -v = -x: up, right-handed
-    assert_float_equal(t[1], 1, 1e-6);
+    assert_near(t[1], 1, 1e-6);
     assert_true(t[3] == 1.0f);
     ag_scene_destroy(scene);
 }
