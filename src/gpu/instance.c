@@ -107,6 +107,8 @@ static const char *missing_part(VkPhysicalDevice physical, const VkPhysicalDevic
         return "dynamicRendering";
     if (!v13.synchronization2)
         return "synchronization2";
+    if (!v13.maintenance4)
+        return "maintenance4";
     if (!v12.scalarBlockLayout)
         return "scalarBlockLayout";
     if (!(props->limits.framebufferColorSampleCounts & props->limits.framebufferDepthSampleCounts &

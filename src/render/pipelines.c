@@ -30,7 +30,8 @@ static gpu_pipeline_desc describe(const bindings *b, const pipeline_key *key)
     switch (key->kind) {
     case PIPELINE_SURFACE:
         desc.vertex = shader_surface_vert();
-        desc.fragment = shader_surface_frag();
+        desc.fragment = key->constants.alpha_mode == GPU_ALPHA_MASK ? shader_cutout_frag()
+                                                                    : shader_surface_frag();
         desc.layout = b->surfaces;
         desc.vertices = geometry_vertex_input();
         desc.has_depth = desc.depth_test = true;

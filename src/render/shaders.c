@@ -7,6 +7,9 @@ static const uint32_t surface_vert[] =
 static const uint32_t surface_frag[] =
 #include "surface.frag.inc"
     ;
+static const uint32_t cutout_frag[] =
+#include "cutout.frag.inc"
+    ;
 static const uint32_t fullscreen_vert[] =
 #include "fullscreen.vert.inc"
     ;
@@ -28,6 +31,11 @@ gpu_shader shader_surface_vert(void)
 gpu_shader shader_surface_frag(void)
 {
     return (gpu_shader) { surface_frag, sizeof surface_frag };
+}
+
+gpu_shader shader_cutout_frag(void)
+{
+    return (gpu_shader) { cutout_frag, sizeof cutout_frag };
 }
 
 gpu_shader shader_fullscreen_vert(void)

@@ -1,0 +1,163 @@
+// Surfaces: what the material says, and the light that it sends to the eye.  CUTOUT: with
+// holes where alpha is below the cutoff.
+#include "physics/environment.glsl"
+#include "physics/light_punctual.glsl"
+#include "physics/sh.glsl"
+#include "physics/specular_aa.glsl"
+#include "physics/surface.glsl"
+#include "physics/tonemap.glsl"
+#include "passes/frame.glsl"
+
+// gpu_surface_constants
+layout(constant_id = 0) const uint TEXTURES = 0u;
+layout(constant_id = 1) const uint GENERAL_UV = 0u;
+layout(constant_id = 2) const uint ALPHA_MODE = 0u;
+layout(constant_id = 3) const uint UNLIT = 0u;
+layout(constant_id = 4) const uint ENVIRONMENT = 1u;
+layout(constant_id = 5) const uint LIGHTS = GPU_LIGHTS_ANY;
+layout(constant_id = 6) const uint TONE = 0u;
+layout(constant_id = 7) const uint SAMPLES = 4u;
+
+layout(scalar, set = 1, binding = 0) uniform Material { gpu_material material; };
+layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
+layout(set = 1, binding = 2) uniform sampler2D metallic_roughness_texture;
+layout(set = 1, binding = 3) uniform sampler2D normal_texture;
+layout(set = 1, binding = 4) uniform sampler2D occlusion_texture;
+layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
+layout(set = 1, binding = 6) uniform sampler2D specular_texture;
+layout(set = 1, binding = 7) uniform sampler2D specular_color_texture;
+
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec4 in_tangent;
+layout(location = 3) in vec4 in_uvs;
+layout(location = 4) in vec4 in_color;
+
+layout(location = 0) out vec4 out_color; // premultiplied
+
+vec2 uv_of(uint t)
+{
+    if (GENERAL_UV == 0u)
+        return in_uvs.xy;
+    vec3 uv = vec3((material.uv1 >> t & 1u) != 0u ? in_uvs.zw : in_uvs.xy, 1.0);
+    return vec2(dot(material.uv_u[t], uv), dot(material.uv_v[t], uv));
+}
+
+bool has(int t)
+{
+    return (TEXTURES >> t & 1u) != 0u;
+}
+
+#define SAMPLE(map, t, otherwise) (has(t) ? texture(map, uv_of(uint(t))) : (otherwise))
+
+vec3 shading_normal()
+{
+    vec3 n = in_normal;
+    if (has(GPU_TEXTURE_NORMAL)) {
+        vec3 m = texture(normal_texture, uv_of(GPU_TEXTURE_NORMAL)).xyz * 2.0 - 1.0;
+        m.xy *= material.normal_scale;
+        // As MikkTSpace bakes: the interpolated vectors are not normalised first.
+        vec3 bitangent = in_tangent.w * cross(n, in_tangent.xyz);
+        n = m.x * in_tangent.xyz + m.y * bitangent + m.z * n;
+    }
+    n = normalize(n);
+    return gl_FrontFacing ? n : -n;
+}
+
+surface_material material_here(vec3 base_color)
+{
+    vec4 white = vec4(1.0);
+    vec4 metallic_roughness =
+        SAMPLE(metallic_roughness_texture, GPU_TEXTURE_METALLIC_ROUGHNESS, white);
+    surface_material m;
+    m.base_color = base_color;
+    m.metallic = material.metallic * metallic_roughness.b;
+    m.roughness = material.roughness * metallic_roughness.g;
+    m.dielectric_f0 = material.dielectric_f0;
+    m.specular_color = material.specular_color *
+                       SAMPLE(specular_color_texture, GPU_TEXTURE_SPECULAR_COLOR, white).rgb;
+    m.specular = material.specular * SAMPLE(specular_texture, GPU_TEXTURE_SPECULAR, white).a;
+    return m;
+}
+
+vec3 lit_by(gpu_light light, surface s, vec3 n, vec3 wo)
+{
+    vec3 wi = -light.direction;
+    float falloff = 1.0;
+    if (light.kind != GPU_LIGHT_DIRECTIONAL) {
+        vec3 to_light = light.position - in_position;
+        float distance2 = dot(to_light, to_light);
+        falloff = light_point(distance2, light.inverse_range2);
+        wi = to_light * inversesqrt(max(distance2, 1e-20));
+        if (light.kind == GPU_LIGHT_SPOT)
+            falloff *= light_spot(-dot(light.direction, wi), light.cone);
+    }
+    return falloff * light.intensity * surface_direct(s, n, wo, wi);
+}
+
+vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness)
+{
+    vec3 r = reflect(-wo, n);
+    float NoV = surface_cosine(n, wo);
+    float ao = 1.0 + material.occlusion_strength *
+                         (SAMPLE(occlusion_texture, GPU_TEXTURE_OCCLUSION, vec4(1.0)).r - 1.0);
+    float open = ao;
+    if (has(GPU_TEXTURE_OCCLUSION))
+        open = environment_specular_occlusion(NoV, ao, roughness * roughness);
+    if (has(GPU_TEXTURE_NORMAL))
+        open *= environment_horizon_occlusion(
+            r, gl_FrontFacing ? normalize(in_normal) : -normalize(in_normal));
+    vec3 prefiltered = textureLod(environment_cube, environment_from_world(r),
+                                  environment_mip(roughness, frame.environment_mips))
+                           .rgb;
+    vec3 irradiance = sh_irradiance(frame.sh, environment_from_world(n));
+    return frame.environment_intensity *
+           surface_environment(s, ao * irradiance, open * prefiltered);
+}
+
+vec3 radiance_to_eye(vec3 base_color)
+{
+    vec3 n = shading_normal();
+    vec3 wo = frame.orthographic != 0.0 ? -frame.ray_center : normalize(frame.eye - in_position);
+    surface_material m = material_here(base_color);
+    m.roughness = specular_aa_roughness(m.roughness, dFdx(n), dFdy(n));
+    vec2 dfg = texture(dfg_table, vec2(surface_cosine(n, wo), m.roughness)).rg;
+    surface s = surface_from_metallic_roughness(m, dfg);
+
+    vec3 light = material.emissive *
+                 SAMPLE(emissive_texture, GPU_TEXTURE_EMISSIVE, vec4(1.0)).rgb;
+    if (ENVIRONMENT != 0u)
+        light += lit_by_environment(s, n, wo, m.roughness);
+    uint count = LIGHTS == GPU_LIGHTS_ANY ? frame.light_count : LIGHTS;
+    for (uint i = 0u; i < count; i++)
+        light += lit_by(lights[i], s, n, wo);
+    return light;
+}
+
+#ifdef CUTOUT
+// The step at the cutoff is made one pixel wide and covers as many of the pixel's samples,
+// so that multisampling smooths it.
+void cover(float alpha)
+{
+    float share = clamp((alpha - material.alpha_cutoff) / max(fwidth(alpha), 1e-4) + 0.5, 0.0, 1.0);
+    uint covered = uint(share * float(SAMPLES) + 0.5);
+    if (covered == 0u)
+        discard;
+    gl_SampleMask[0] = int((1u << covered) - 1u);
+}
+#endif
+
+void main()
+{
+    vec4 base = material.base_color * in_color *
+                SAMPLE(base_color_texture, GPU_TEXTURE_BASE_COLOR, vec4(1.0));
+#ifdef CUTOUT
+    cover(base.a);
+#endif
+    vec3 color = UNLIT != 0u ? base.rgb : radiance_to_eye(base.rgb);
+    color *= frame.exposure;
+    if (TONE != GPU_TONE_LINEAR)
+        color = tonemap(TONE, color);
+    float alpha = ALPHA_MODE == GPU_ALPHA_BLEND ? base.a : 1.0;
+    out_color = vec4(min(color, 60000.0) * alpha, alpha);
+}
