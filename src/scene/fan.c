@@ -194,9 +194,14 @@ static void find_groups(fan *f)
 
 // ---- Frames ----------------------------------------------------------------
 
+static vec3 without(vec3 v, vec3 normal)
+{
+    return vec3_sub(v, vec3_scale(normal, vec3_dot(normal, v)));
+}
+
 static vec3 project(vec3 v, vec3 normal)
 {
-    return vec3_unit(vec3_sub(v, vec3_scale(normal, vec3_dot(normal, v))));
+    return vec3_unit(without(v, normal));
 }
 
 static bool has_facing(facing f)
@@ -207,9 +212,9 @@ static bool has_facing(facing f)
 // Projected twice: the first time leaves mostly noise of a vector along the normal.
 static fan_frame frame_of(const group *g, vec3 normal)
 {
-    vec3 once = project(g->sum, normal), twice = project(once, normal);
-    bool sound = vec3_dot(once, twice) > 0.999f;
-    return (fan_frame) { sound ? twice : vec3_perpendicular(normal),
+    vec3 twice = without(project(g->sum, normal), normal);
+    bool sound = vec3_dot(twice, twice) > 0.9f;
+    return (fan_frame) { sound ? vec3_unit(twice) : vec3_perpendicular(normal),
                          g->facing == FACING_MIRRORED ? -1.0f : 1.0f };
 }
 
