@@ -2,7 +2,9 @@
 argand=$1 json=$2 root=$(cd "$(dirname "$0")/../.." && pwd)
 triangle=$root/tests/cli/triangle.gltf
 here=$(mktemp -d)
-trap 'chmod -R u+w "$here"; rm -rf "$here"' EXIT
+ARGAND_CACHE_DIR=$(mktemp -d) # the user's own is left alone
+export ARGAND_CACHE_DIR
+trap 'chmod -R u+w "$here"; rm -rf "$here" "$ARGAND_CACHE_DIR"' EXIT
 cd "$here"
 
 fail() {

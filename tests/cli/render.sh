@@ -5,6 +5,11 @@
 set -eu
 . "$(dirname "$0")/helpers.sh"
 small="--size 64x48 --device cpu"
+# The file's unknown extension would be warned about.
+folder=$(mktemp -d)
+trap 'rm -rf "$here" "$folder" "$ARGAND_CACHE_DIR"' EXIT
+sed 's/XYZ_materials_plaid/KHR_materials_ior/' "$triangle" >"$folder/triangle.gltf"
+triangle=$folder/triangle.gltf
 
 # Every kind of picture, told by its first bytes.
 magic() { # magic FILE OFFSET HEX
@@ -29,7 +34,7 @@ rm x.*
 "$argand" render "$triangle" -o x.png $small --quiet >out 2>err || fail "--quiet"
 [ ! -s out ] && [ ! -s err ] || fail "--quiet says something"
 "$argand" render "$triangle" -o x.png $small 2>err >out || fail "render"
-if grep -q "%" err; then fail "a bar where there is no terminal"; fi
+[ ! -s err ] || fail "a bar where there is no terminal"
 if command -v script >/dev/null; then
     TERM=xterm script -qec "'$argand' render '$triangle' -o x.png $small" /dev/null >log </dev/null
     grep -q '%' log || fail "no bar on a terminal"
@@ -44,13 +49,17 @@ fi
 "$argand" render "$triangle" -o x.png $small --json --validate >out 2>err || fail "--validate"
 "$json" out validation_messages=0 || fail "validation messages"
 
-# Every option that takes a word, once each, works.
-for option in --tonemap=none --tonemap=reinhard --tonemap=aces --tonemap=aces-narkowicz \
-    --tonemap=agx --quality=fast --quality=best --env=sky --env=none --background=transparent \
-    --background=#336699 --camera=0 --camera=front --fov=20 --target=0,auto,1 --ev100=1 \
-    --orbit=-30,75,auto --env-rotation=90 --env-intensity=.5 --exposure=2e0 --verbose; do
-    "$argand" render "$triangle" -o x.png $small "$option" >out 2>err || fail "$option"
-done
+# Every option works, several at once to save time.
+while read -r options; do
+    "$argand" render "$triangle" -o x.png $small $options >out 2>err || fail "$options"
+done <<'END'
+--tonemap none --quality fast --env sky --env-rotation 90 --env-intensity .5
+--tonemap=reinhard --exposure=2e0 --fov 20 --orbit=-30,75,auto --verbose
+--tonemap aces --background #336699 --target 0,auto,1 --orbit auto,auto,5 --ev100=-1
+--tonemap aces-narkowicz --background=transparent --env none --camera 0
+--tonemap agx --quality=best --camera=front -q
+--quality default --tonemap neutral --env studio --background env -v
+END
 # A camera through its name is the same camera as through its index; another one is not.
 "$argand" render "$triangle" -o a.png $small --camera front >out
 "$argand" render "$triangle" -o b.png $small --camera 0 >out
