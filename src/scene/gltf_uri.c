@@ -168,8 +168,8 @@ static ag_status resolve(const gltf_file *file, const ag_log *log, const char *w
         free(*real);
         *real = NULL;
         return log_fail(log, AG_ERROR_FORMAT,
-                        "%s: %s: \"%.200s\" is a link that leaves the file's folder", file->path,
-                        where, uri);
+                        "%s: %s: \"%.200s\" does not lie in the file's folder", file->path, where,
+                        uri);
     }
     return AG_OK;
 }
