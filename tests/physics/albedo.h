@@ -1,0 +1,44 @@
+// The albedo of the GGX lobe by brute quadrature in double, from the papers' formulas
+// written out here and not from the text under test.
+#ifndef TESTS_PHYSICS_ALBEDO_H
+#define TESTS_PHYSICS_ALBEDO_H
+
+#include <math.h>
+
+typedef struct albedo {
+    double scale, bias; // of f0 and of f90
+} albedo;
+
+static inline double albedo_g2(double NoV, double NoL, double a2)
+{
+    double lv = (sqrt(1.0 + a2 * (1.0 / (NoV * NoV) - 1.0)) - 1.0) / 2.0;
+    double ll = (sqrt(1.0 + a2 * (1.0 / (NoL * NoL) - 1.0)) - 1.0) / 2.0;
+    return 1.0 / (1.0 + lv + ll);
+}
+
+// Over the half vectors, by the distribution's inverse (midpoints, steps^2 of them); the
+// light's solid angle is 4 v.h times theirs.
+static inline albedo albedo_of(double NoV, double alpha, int steps)
+{
+    double a2 = alpha * alpha, s = sqrt(1.0 - NoV * NoV);
+    albedo sum = { 0.0, 0.0 };
+    for (int i = 0; i < steps; i++) {
+        double u = (i + 0.5) / steps;
+        double NoH = sqrt((1.0 - u) / (1.0 + (a2 - 1.0) * u)), sh = sqrt(1.0 - NoH * NoH);
+        for (int k = 0; k < steps; k++) {
+            double VoH = s * sh * cos(3.14159265358979324 * (k + 0.5) / steps) + NoV * NoH;
+            double NoL = 2.0 * VoH * NoH - NoV;
+            if (VoH <= 0.0 || NoL <= 0.0)
+                continue;
+            // D cos dh is uniform in u; the rest of D V cos_l 4 v.h / (D cos_h).
+            double g = albedo_g2(NoV, NoL, a2) * VoH / (NoV * NoH);
+            double w = pow(1.0 - VoH, 5.0);
+            sum.scale += g * (1.0 - w);
+            sum.bias += g * w;
+        }
+    }
+    double n = (double)steps * steps;
+    return (albedo) { sum.scale / n, sum.bias / n };
+}
+
+#endif
