@@ -74,7 +74,10 @@ static ag_status set_environment(work *w)
         .rotation_rad = r->environment_rotation_rad,
         .intensity = r->environment_intensity,
     };
-    return ag_scene_set_environment(w->scene, &desc);
+    ag_status status = ag_scene_set_environment(w->scene, &desc);
+    ag_image_destroy(w->environment); // the scene has a copy
+    w->environment = NULL;
+    return status;
 }
 
 // Everything that the renderer needs, made side by side.
