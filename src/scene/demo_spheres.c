@@ -15,8 +15,8 @@ void demo_spheres(stage *s)
         float metallic;
     } rows[ROWS] = {
         { { 0.972f, 0.960f, 0.915f }, 1.0f }, { { 1.000f, 0.782f, 0.344f }, 1.0f },
-        { { 0.955f, 0.638f, 0.538f }, 1.0f }, { { 0.020f, 0.220f, 0.280f }, 0.0f },
-        { { 0.480f, 0.030f, 0.020f }, 0.0f },
+        { { 0.955f, 0.638f, 0.538f }, 1.0f }, { { 0.020f, 0.300f, 0.380f }, 0.0f },
+        { { 0.600f, 0.035f, 0.020f }, 0.0f },
     };
     ag_mesh sphere = stage_sphere(s, 0.46f, 96, 64);
     for (int row = 0; row < ROWS; row++) {
@@ -85,8 +85,8 @@ void demo_furnace(stage *s)
 static vec3 hue(float turns)
 {
     float angle = 2.0f * pi * turns;
-    return (vec3) { 0.45f + 0.4f * cosf(angle), 0.45f + 0.4f * cosf(angle - 2.0944f),
-                    0.45f + 0.4f * cosf(angle + 2.0944f) };
+    return (vec3) { 0.42f + 0.33f * cosf(angle), 0.42f + 0.33f * cosf(angle - 2.0944f),
+                    0.42f + 0.33f * cosf(angle + 2.0944f) };
 }
 
 void demo_million(stage *s)
@@ -122,6 +122,6 @@ void demo_nodes(stage *s)
                               0.05f * (float)(x + z), 0.0f);
         }
     }
-    stage_environment(s, AG_ENVIRONMENT_SKY);
+    stage_environment(s, AG_ENVIRONMENT_STUDIO);
     stage_camera(s, 0.6f, 1.0f, 0.5f);
 }

@@ -9,7 +9,8 @@ static const float pi = 3.14159265359f;
 
 typedef struct painting {
     float *pixels;
-    vec3 (*radiance)(vec3 direction);
+    vec3 (*radiance)(const void *context, vec3 direction);
+    const void *context;
     float cosine[WIDTH], sine[WIDTH]; // of each column's azimuth
 } painting;
 
@@ -20,18 +21,20 @@ static void paint_row(void *context, size_t row)
     float *out = p->pixels + row * WIDTH * 4;
     for (int x = 0; x < WIDTH; x++, out += 4) {
         vec3 d = { sinf(theta) * p->cosine[x], cosf(theta), sinf(theta) * p->sine[x] };
-        vec3_store(p->radiance(d), out);
+        vec3_store(p->radiance(p->context, d), out);
         out[3] = 1.0f;
     }
 }
 
-ag_status environment_paint(const ag_log *log, vec3 (*radiance)(vec3 direction), ag_image **image)
+ag_status environment_paint(const ag_log *log,
+                            vec3 (*radiance)(const void *context, vec3 direction),
+                            const void *context, ag_image **image)
 {
     ag_image_desc desc = { .width = WIDTH, .height = HEIGHT, .format = AG_FORMAT_RGBA32F };
     ag_status status = ag_image_create(log, &desc, image);
     if (status != AG_OK)
         return status;
-    painting p = { .pixels = (*image)->pixels, .radiance = radiance };
+    painting p = { .pixels = (*image)->pixels, .radiance = radiance, .context = context };
     for (int x = 0; x < WIDTH; x++) {
         float azimuth = 2.0f * pi * (((float)x + 0.5f) / (float)WIDTH - 0.5f);
         p.cosine[x] = cosf(azimuth);

@@ -8,9 +8,8 @@
 static const double turbidity = 3.0;                     // a clear day
 static const double sun_theta = 0.85, sun_azimuth = 2.2; // rad, from +X towards +Z
 
-// Maps the model's luminance so that white paper lying on the ground has a radiance of 0.8.
-static const double scale = 0.8;
-static const double ground_albedo = 0.25;
+// Not the model's own, but such that white paper lying on the ground has a radiance of 0.8.
+static const double zenith_luminance = 0.6;
 
 typedef struct perez {
     double a, b, c, d, e;
@@ -71,32 +70,47 @@ static vec3 rec709_from_xyy(double x, double y, double luminance)
     return (vec3) { (float)fmax(r, 0.0), (float)fmax(g, 0.0), (float)fmax(b, 0.0) };
 }
 
-static vec3 sky_above(vec3 d)
+// What does not depend on the direction.
+typedef struct heaven {
+    perez distribution[3]; // Y, x, y
+    double zenith[3];      // the same at the zenith, over the distribution there
+    vec3 sun;
+} heaven;
+
+static heaven make_heaven(void)
 {
-    vec3 sun = { (float)(sin(sun_theta) * cos(sun_azimuth)), (float)cos(sun_theta),
-                 (float)(sin(sun_theta) * sin(sun_azimuth)) };
-    double cos_theta = fmax((double)d.y, 0.01);
-    double gamma = acos(fmin(fmax((double)vec3_dot(d, sun), -1.0), 1.0));
-    double v[3];
+    heaven h = { .sun = { (float)(sin(sun_theta) * cos(sun_azimuth)), (float)cos(sun_theta),
+                          (float)(sin(sun_theta) * sin(sun_azimuth)) } };
+    const double zenith[3] = { zenith_luminance, zenith_chromaticity(zenith_xy[0]),
+                               zenith_chromaticity(zenith_xy[1]) };
     for (int i = 0; i < 3; i++) {
-        perez p = perez_of(i);
-        v[i] = perez_at(p, cos_theta, gamma) / perez_at(p, 1.0, sun_theta);
+        h.distribution[i] = perez_of(i);
+        h.zenith[i] = zenith[i] / perez_at(h.distribution[i], 1.0, sun_theta);
     }
-    double x = zenith_chromaticity(zenith_xy[0]) * v[1];
-    double y = zenith_chromaticity(zenith_xy[1]) * v[2];
-    return rec709_from_xyy(x, y, scale * v[0]);
+    return h;
 }
 
-static vec3 sky(vec3 d)
+static vec3 look_up(const heaven *h, vec3 d)
 {
-    float ground = (float)(0.8 * ground_albedo);
-    float seen = fminf(fmaxf(0.5f + d.y * 50.0f, 0.0f), 1.0f); // a soft horizon
-    vec3 above = sky_above(d);
-    return vec3_add(vec3_scale(above, seen),
-                    vec3_scale((vec3) { ground, ground, ground }, 1.0f - seen));
+    double cos_theta = fmax((double)d.y, 0.01);
+    double gamma = acos(fmin(fmax((double)vec3_dot(d, h->sun), -1.0), 1.0));
+    double v[3];
+    for (int i = 0; i < 3; i++)
+        v[i] = h->zenith[i] * perez_at(h->distribution[i], cos_theta, gamma);
+    return rec709_from_xyy(v[1], v[2], v[0]);
+}
+
+static vec3 look(const void *context, vec3 d)
+{
+    static const vec3 ground = { 0.21f, 0.20f, 0.18f };
+    float seen = fminf(fmaxf(0.5f + d.y * 40.0f, 0.0f), 1.0f); // a soft horizon
+    if (seen == 0.0f)
+        return ground;
+    return vec3_add(vec3_scale(look_up(context, d), seen), vec3_scale(ground, 1.0f - seen));
 }
 
 ag_status sky_create(const ag_log *log, ag_image **image)
 {
-    return environment_paint(log, sky, image);
+    heaven h = make_heaven();
+    return environment_paint(log, look, &h, image);
 }
