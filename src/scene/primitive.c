@@ -44,12 +44,16 @@ static bool patches_init(patches *p, size_t count, unsigned columns, unsigned ro
     return false;
 }
 
+static bool coincide(const patches *p, uint32_t a, uint32_t b)
+{
+    const float *pa = p->positions + 3 * a, *pb = p->positions + 3 * b;
+    return pa[0] == pb[0] && pa[1] == pb[1] && pa[2] == pb[2];
+}
+
 // Leaves out triangles of no area, as at a sphere's poles.
 static void add_triangle(patches *p, uint32_t a, uint32_t b, uint32_t c)
 {
-    const float *pa = p->positions + 3 * a, *pb = p->positions + 3 * b, *pc = p->positions + 3 * c;
-    size_t size = 3 * sizeof(float);
-    if (memcmp(pa, pb, size) == 0 || memcmp(pb, pc, size) == 0 || memcmp(pc, pa, size) == 0)
+    if (coincide(p, a, b) || coincide(p, b, c) || coincide(p, c, a))
         return;
     uint32_t *out = p->indices + p->index_count;
     out[0] = a;
