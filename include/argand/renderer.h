@@ -83,7 +83,7 @@ typedef enum ag_background {
 
 typedef enum ag_quality {
     AG_QUALITY_DEFAULT = 0, // 4 samples a pixel on edges
-    AG_QUALITY_FAST,        // 1 sample a pixel
+    AG_QUALITY_FAST,        // 1 sample a pixel; diffuse image light by 9 coefficients
     AG_QUALITY_BEST,        // 32 jittered frames accumulated
 } ag_quality;
 

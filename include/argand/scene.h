@@ -229,7 +229,8 @@ AG_API bool ag_scene_camera(const ag_scene *scene, size_t index, ag_camera_desc 
 // Where a camera should stand.  Angles are degrees' cousins in radians: theta from +Z
 // towards +X, phi from +Y; radius in metres from the target.  NAN in a field -> chosen:
 // a three-quarter view from slightly above (theta 0.6, phi 1.25), at the distance where
-// the whole scene fits.  NAN in the target -> the centre of the scene's bounds.
+// the whole scene fits.  NAN in the target -> the centre of the scene's bounds.  At radius 0
+// the camera stands on the target and looks the way it would from afar.
 typedef struct ag_orbit {
     float theta_rad, phi_rad, radius_m;
     float target[3];

@@ -102,7 +102,7 @@ STRUCT_BEGIN(gpu_surface_constants)
     uint general_uv;  // some texture has a transform or uses uv set 1
     uint alpha_mode;  // GPU_ALPHA_
     uint unlit;
-    uint environment; // there is one
+    uint environment; // GPU_ENVIRONMENT_
     uint lights;      // how many; GPU_LIGHTS_ANY = as the frame says
     uint tone;        // TONEMAP_ of tonemap.glsl, or GPU_TONE_LINEAR
     uint samples;     // of a pixel
@@ -111,6 +111,9 @@ STRUCT_END(gpu_surface_constants)
 #define GPU_ALPHA_OPAQUE 0u
 #define GPU_ALPHA_MASK   1u
 #define GPU_ALPHA_BLEND  2u
+#define GPU_ENVIRONMENT_NONE      0u
+#define GPU_ENVIRONMENT_CUBE      1u // diffuse light from the irradiance cube
+#define GPU_ENVIRONMENT_HARMONICS 2u // diffuse light from order-2 spherical harmonics
 #define GPU_LIGHTS_ANY   0xffffffffu
 #define GPU_TONE_LINEAR  0xffu // leave the radiance as it is: something comes after
 

@@ -10,6 +10,7 @@ layout(set = 0, binding = 2) uniform sampler2D environment_image;  // equirectan
 layout(set = 0, binding = 3) uniform sampler2D dfg_table;
 layout(scalar, set = 0, binding = 4) readonly buffer Lights { gpu_light lights[]; };
 layout(scalar, set = 0, binding = 5) readonly buffer Instances { gpu_instance instances[]; };
+layout(set = 0, binding = 6) uniform samplerCube irradiance_cube; // over pi
 
 // A direction of the world in the environment's own frame.
 vec3 environment_from_world(vec3 d)

@@ -110,7 +110,9 @@ vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness)
     vec3 prefiltered = textureLod(environment_cube, environment_from_world(r),
                                   environment_mip(roughness, frame.environment_mips))
                            .rgb;
-    vec3 irradiance = sh_irradiance(frame.sh, environment_from_world(n));
+    vec3 irradiance = ENVIRONMENT == GPU_ENVIRONMENT_HARMONICS
+                          ? sh_irradiance(frame.sh, environment_from_world(n))
+                          : textureLod(irradiance_cube, environment_from_world(n), 0.0).rgb;
     return frame.environment_intensity *
            surface_environment(s, ao * irradiance, open * prefiltered);
 }
@@ -126,7 +128,7 @@ vec3 radiance_to_eye(vec3 base_color)
 
     vec3 light = material.emissive *
                  SAMPLE(emissive_texture, GPU_TEXTURE_EMISSIVE, vec4(1.0)).rgb;
-    if (ENVIRONMENT != 0u)
+    if (ENVIRONMENT != GPU_ENVIRONMENT_NONE)
         light += lit_by_environment(s, n, wo, m.roughness);
     uint count = LIGHTS == GPU_LIGHTS_ANY ? frame.light_count : LIGHTS;
     for (uint i = 0u; i < count; i++)

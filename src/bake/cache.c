@@ -85,7 +85,7 @@ static bool decode(uint64_t key, const void *data, size_t bytes, bake_environmen
     memcpy(&h, data, sizeof h);
     if (memcmp(h.magic, MAGIC, sizeof MAGIC) != 0 || h.key != key ||
         h.cube_bytes != bytes - sizeof h || h.size > 4096 || h.mip_count > 13 ||
-        h.cube_bytes != bake_environment_mip_offset(h.size, h.mip_count))
+        h.cube_bytes != bake_environment_bytes(h.size, h.mip_count))
         return false;
     bake_environment e = { .size = h.size, .mip_count = h.mip_count };
     e.cube_bytes = (size_t)h.cube_bytes;

@@ -1,10 +1,11 @@
-// An environment prepared for shading: a prefiltered cube and order-2 irradiance.
+// An environment prepared for shading: a prefiltered cube and irradiance in two forms.
 #include "bake/environment.h"
 
 #include "bake/cache.h"
 #include "bake/cube.h"
 #include "bake/equirect.h"
 #include "bake/harmonics.h"
+#include "bake/irradiance.h"
 #include "bake/prefilter.h"
 #include "base/log.h"
 #include "base/threads.h"
@@ -15,11 +16,11 @@
 #include <stdlib.h>
 
 enum {
-    FORMAT_VERSION = 1, // of what is baked: raise it when the same pixels give another result
+    FORMAT_VERSION = 2, // of what is baked: raise it when the same pixels give another result
     EDGE_MIN = 128,
     EDGE_MAX = 512,
     EDGE_LAST = 8,       // px, of the last mip, roughness 1
-    HARMONICS_EDGE = 32, // px, of the level that the coefficients are made from
+    DIFFUSE_EDGE = 32,   // px, of the level that irradiance is made from
 };
 
 size_t bake_environment_mip_offset(uint32_t size, uint32_t mip)
@@ -28,6 +29,12 @@ size_t bake_environment_mip_offset(uint32_t size, uint32_t mip)
     for (uint32_t i = 0; i < mip; i++)
         bytes += 6 * sizeof(uint16_t[4]) * (size_t)(size >> i) * (size >> i);
     return bytes;
+}
+
+size_t bake_environment_bytes(uint32_t size, uint32_t mip_count)
+{
+    return bake_environment_mip_offset(size, mip_count) +
+           6 * sizeof(uint16_t[4]) * BAKE_IRRADIANCE_SIZE * BAKE_IRRADIANCE_SIZE;
 }
 
 // The power of two nearest, as a ratio, to the texels that cover a quarter of the horizon.
@@ -83,6 +90,21 @@ static void store_mips(const cube *c, bake_environment *e, float *texels)
     }
 }
 
+// Irradiance in both forms, through `texels`; false when there is no memory.
+static bool store_irradiance(const cube *c, bake_environment *e, float *texels)
+{
+    uint32_t level = 0;
+    while (c->levels[level].size > DIFFUSE_EDGE)
+        level++;
+    harmonics_project(&c->levels[level], e->sh);
+    if (!irradiance_integrate(&c->levels[level], BAKE_IRRADIANCE_SIZE, texels))
+        return false;
+    size_t offset = bake_environment_mip_offset(e->size, e->mip_count) / sizeof *e->cube;
+    half_from_floats_clamped(texels, e->cube + offset,
+                             6 * 4 * (size_t)BAKE_IRRADIANCE_SIZE * BAKE_IRRADIANCE_SIZE);
+    return true;
+}
+
 // Fill an environment whose sizes are set; false when there is no memory.
 static bool bake(const ag_image *image, bake_environment *e)
 {
@@ -94,12 +116,9 @@ static bool bake(const ag_image *image, bake_environment *e)
                 equirect_to_cube(image->pixels, image->width, image->height, &c.levels[0]);
     if (done) {
         cube_complete(&c);
-        uint32_t level = 0;
-        while (c.levels[level].size > HARMONICS_EDGE)
-            level++;
-        harmonics_project(&c.levels[level], e->sh);
         store_base(&c, e);
         store_mips(&c, e, texels);
+        done = store_irradiance(&c, e, texels);
     }
     free(texels);
     cube_finish(&c);
@@ -125,7 +144,7 @@ ag_status bake_environment_make(const ag_log *log, const ag_image *equirect, bak
     uint64_t key = key_of(equirect);
     bake_environment e = { .size = cube_size(equirect->width) };
     e.mip_count = mip_count_of(e.size);
-    e.cube_bytes = bake_environment_mip_offset(e.size, e.mip_count);
+    e.cube_bytes = bake_environment_bytes(e.size, e.mip_count);
     bake_environment found;
     if (bake_cache_find(key, &found)) {
         if (found.size == e.size && found.mip_count == e.mip_count) {

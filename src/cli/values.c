@@ -134,8 +134,8 @@ const char *value_orbit(const char *value, void *field)
         return "is not THETA,PHI,RADIUS, three numbers or auto";
     if (v[1] < 0 || v[1] > 180)
         return "has a PHI outside 0 (above) to 180 (below) degrees";
-    if (v[2] < 1e-30)
-        return "has a RADIUS that is not above 0 metres";
+    if (v[2] < 0)
+        return "has a RADIUS below 0 metres";
     float *out = field;
     out[0] = radians(fmod(v[0], 360));
     out[1] = radians(v[1]);

@@ -24,7 +24,10 @@ static ag_status surface_pipeline(ag_renderer *r, const picture *p, uint32_t mat
         .constants = r->resident.materials.constants[material],
     };
     uint32_t lights = r->resident.light_count;
-    key.constants.environment = r->resident.surround.present;
+    if (r->resident.surround.present)
+        key.constants.environment = p->options->quality == AG_QUALITY_FAST
+                                        ? GPU_ENVIRONMENT_HARMONICS
+                                        : GPU_ENVIRONMENT_CUBE;
     // A loop of known length is a third faster; a few lengths are enough.
     key.constants.lights = lights <= 4 ? lights : GPU_LIGHTS_ANY;
     key.constants.tone = surface_tone(p);

@@ -133,6 +133,7 @@ static void write_frame_set(ag_renderer *r)
                           r->resident.lights.buffer, 0, VK_WHOLE_SIZE);
     bindings_write_buffer(r->device, set, 5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                           r->instances.buffer, 0, VK_WHOLE_SIZE);
+    bindings_write_image(r->device, set, 6, s->irradiance.view, r->bindings.linear);
     if (r->targets.radiance.view)
         bindings_write_image(r->device, r->bindings.picture, 0, r->targets.radiance.view,
                              r->bindings.linear);

@@ -45,6 +45,17 @@ static ag_status upload_cube(gpu_device *device, gpu_upload *upload, const bake_
     return upload_levels(device, upload, &desc, 8, baked->cube, cube);
 }
 
+static ag_status upload_irradiance(gpu_device *device, gpu_upload *upload,
+                                   const bake_environment *baked, gpu_image *cube)
+{
+    const gpu_image_desc desc = { .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                  .width = BAKE_IRRADIANCE_SIZE,
+                                  .height = BAKE_IRRADIANCE_SIZE,
+                                  .cube = true };
+    size_t offset = bake_environment_mip_offset(baked->size, baked->mip_count);
+    return upload_levels(device, upload, &desc, 8, (const char *)baked->cube + offset, cube);
+}
+
 // The picture itself as half floats.
 static ag_status upload_image(gpu_device *device, gpu_upload *upload, const ag_image *equirect,
                               gpu_image *image)
@@ -105,6 +116,9 @@ ag_status surround_create(gpu_device *device, const ag_image *equirect, bool ima
         status = equirect ? upload_cube(device, upload, &baked, &s->cube)
                           : upload_black(device, upload, true, &s->cube);
     if (!status)
+        status = equirect ? upload_irradiance(device, upload, &baked, &s->irradiance)
+                          : upload_black(device, upload, true, &s->irradiance);
+    if (!status)
         status = s->image_wanted ? upload_image(device, upload, equirect, &s->image)
                                  : upload_black(device, upload, false, &s->image);
     bake_environment_finish(&baked);
@@ -116,6 +130,7 @@ ag_status surround_create(gpu_device *device, const ag_image *equirect, bool ima
 void surround_destroy(gpu_device *device, surround *s)
 {
     gpu_image_destroy(device, &s->cube);
+    gpu_image_destroy(device, &s->irradiance);
     gpu_image_destroy(device, &s->image);
     gpu_image_destroy(device, &s->dfg);
     *s = (surround) { 0 };

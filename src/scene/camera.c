@@ -153,13 +153,14 @@ ag_camera_desc ag_scene_frame(const ag_scene *scene, const ag_orbit *orbit, floa
     choose_target(scene, &o);
     frame f = orbit_frame(&o);
     double radius = (double)o.radius_m;
-    if (!(radius > 0.0 && isfinite(radius))) {
+    if (!(radius >= 0.0 && isfinite(radius))) {
         double ty = tan(0.5 * (double)o.fov_y_rad) / margin;
         radius = fmin(fitting_distance(scene, &f, ty * (double)aspect, ty), 1e30);
     }
     ag_camera_desc camera = { .fov_y_rad = o.fov_y_rad };
     for (int i = 0; i < 3; i++) {
-        camera.target[i] = o.target[i];
+        // On the target itself the camera still looks the orbit's way.
+        camera.target[i] = (float)(f.origin[i] - (radius > 0.0 ? 0.0 : f.axis[2][i]));
         camera.position[i] = (float)(f.origin[i] + radius * f.axis[2][i]);
         camera.up[i] = (float)f.axis[1][i];
     }
