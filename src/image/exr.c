@@ -73,8 +73,8 @@ typedef struct layout {
     exr_attr_box2i_t window;
     uint32_t width, height;
     exr_storage_t storage;
-    bool luminance; // Y instead of R, G, B
-    bool alpha;
+    bool luminance;  // Y instead of R, G, B
+    bool present[4]; // R (or Y), G, B, A
 } layout;
 
 // 0 to 3 for a channel that is wanted, else -1.
@@ -100,13 +100,17 @@ static ag_status read_channels(const source *s, exr_const_context_t exr, layout 
         color = color || (name[0] && !name[1] && strchr("RGB", name[0]));
         chroma = chroma || strcmp(name, "RY") == 0 || strcmp(name, "BY") == 0;
         l->luminance = l->luminance || strcmp(name, "Y") == 0;
-        l->alpha = l->alpha || strcmp(name, "A") == 0;
         if (entry->x_sampling != 1 || entry->y_sampling != 1)
             return log_fail(s->log, AG_ERROR_UNSUPPORTED,
                             "%s: OpenEXR channel %.40s is subsampled; save the image as RGB",
                             s->name, name);
     }
     l->luminance = l->luminance && !color;
+    for (int i = 0; i < list->num_channels; i++) {
+        int slot = channel_slot(l, list->entries[i].name.str);
+        if (slot >= 0)
+            l->present[slot] = true;
+    }
     if (!color && (!l->luminance || chroma))
         return log_fail(s->log, AG_ERROR_UNSUPPORTED,
                         "%s: the OpenEXR file has no channels R, G, B or Y alone; save it as RGB",
@@ -206,14 +210,14 @@ static exr_result_t decode_tiles(exr_const_context_t exr, exr_decode_pipeline_t 
     return code;
 }
 
-// What no channel filled, and colours without their alpha.
+// What no channel filled: colours are 0, alpha is 1; and colours without their alpha.
 static void complete(const layout *l, float *pixels)
 {
     size_t count = (size_t)l->width * l->height;
     for (size_t i = 0; i < count; i++, pixels += 4) {
-        if (l->luminance)
-            pixels[1] = pixels[2] = pixels[0];
-        if (!l->alpha)
+        for (int c = 0; c < 3; c++)
+            pixels[c] = l->luminance ? pixels[0] : l->present[c] ? pixels[c] : 0;
+        if (!l->present[3])
             pixels[3] = 1;
         else if (pixels[3] > 0 && pixels[3] != 1)
             for (int c = 0; c < 3; c++)
@@ -230,7 +234,6 @@ static ag_status decode(source *s, exr_const_context_t exr, ag_image **image)
     if (status)
         return status;
     float *pixels = (*image)->pixels;
-    memset(pixels, 0, (size_t)l.width * l.height * 16);
     exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_result_t code = l.storage == EXR_STORAGE_TILED
                             ? decode_tiles(exr, &pipeline, &l, pixels)

@@ -36,12 +36,21 @@ static void rgba_from_cmyk(uint8_t *p, size_t pixels)
     }
 }
 
-// libjpeg goes on after a flaw it can pass over and fills in what is missing.  A file
-// that ends too early is broken for us; of any other flaw the caller is warned.
+// libjpeg goes on after a flaw and fills in what is missing.  Only of flaws that touch no
+// pixel is it enough to warn.  Of several it tells the first.
+static bool is_harmless(const char *text)
+{
+    static const char *const parts[] = { "extraneous bytes", "JFIF revision", "Adobe color" };
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (strstr(text, parts[i]))
+            return true;
+    return false;
+}
+
 static ag_status judge(const ag_log *log, const char *name, tjhandle jpeg)
 {
     const char *text = tjGetErrorStr2(jpeg);
-    if (tjGetErrorCode(jpeg) == TJERR_WARNING && !strstr(text, "remature end")) {
+    if (tjGetErrorCode(jpeg) == TJERR_WARNING && is_harmless(text)) {
         log_write(log, AG_LOG_WARNING, "%s: flawed JPEG: %s", name, text);
         return AG_OK;
     }
@@ -55,6 +64,8 @@ static ag_status decode(const ag_log *log, const char *name, tjhandle jpeg, cons
     if (tjDecompressHeader3(jpeg, data, size, &width, &height, &subsampling, &colorspace) != 0 &&
         tjGetErrorCode(jpeg) == TJERR_FATAL)
         return judge(log, name, jpeg);
+    if (width < 1 || height < 1)
+        return log_fail(log, AG_ERROR_FORMAT, "%s: the JPEG ends before its picture", name);
     uint64_t w = (uint64_t)width, h = (uint64_t)height;
     if (!codec_size_is_plausible(w, h, size, PIXELS_PER_BYTE))
         return codec_fail_size(log, name, "JPEG", w, h, size);

@@ -1,0 +1,7 @@
+// Fuzz target: the PNG decoder.
+#include "fuzz_image.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    return fuzz_decoder(image_decode_png, data, size);
+}
