@@ -58,8 +58,8 @@ static void check_level(image_mip_kind kind, const uint8_t *in, int w, int h, co
             double exact[4];
             reference(kind, in, w, h, ow, oh, x, y, exact);
             const uint8_t *p = level + ((size_t)y * (size_t)ow + (size_t)x) * 4;
-            for (int c = 0; c < 4; c++) // rounded, but for what 16 bits of light leave open
-                assert_close(p[c], exact[c], kind == IMAGE_MIP_SRGB && c < 3 ? 0.53 : 0.501);
+            for (int c = 0; c < 4; c++) // rounded, but for what the table of sums leaves open
+                assert_close(p[c], exact[c], kind == IMAGE_MIP_SRGB && c < 3 ? 0.58 : 0.501);
         }
 }
 

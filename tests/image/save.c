@@ -2,6 +2,7 @@
 #include "files.h"
 
 #include "base/file.h"
+#include "image/deflate.h"
 #include "image/half.h"
 
 #include <dirent.h>
@@ -140,6 +141,102 @@ static void test_png_noise(void **state)
         }
         ag_image_destroy(image);
     }
+}
+
+// Fibonacci's numbers are the frequencies that make Huffman's codes the longest: here 22
+// bits, where deflate has 15.
+static void test_png_long_codes(void **state)
+{
+    enum { WIDTH = 256, HEIGHT = 159, COUNT = WIDTH * 3 * HEIGHT };
+    uint8_t *differences = calloc(COUNT, 1);
+    assert_non_null(differences);
+    size_t n = 0;
+    for (unsigned k = 0, now = 1, next = 1; k < 24; k++) {
+        for (unsigned i = 0; i < now && n < COUNT; i++)
+            differences[n++] = (uint8_t)(10 + k);
+        next += now;
+        now = next - now;
+    }
+    uint32_t random = 1;
+    for (size_t i = COUNT - 1; i > 0; i--) {
+        random = random * 1664525 + 1013904223;
+        size_t j = (random >> 4) % (i + 1);
+        uint8_t swap = differences[i];
+        differences[i] = differences[j];
+        differences[j] = swap;
+    }
+    ag_image *image = make(WIDTH, HEIGHT, AG_FORMAT_RGBA8);
+    uint8_t *p = image->pixels;
+    for (size_t y = 0; y < HEIGHT; y++)
+        for (size_t x = 0; x < WIDTH * 4; x++) {
+            size_t at = y * WIDTH * 4 + x;
+            unsigned above = y ? p[at - WIDTH * 4] : 0;
+            unsigned d = differences[(y * WIDTH + x / 4) * 3 + x % 4 % 3];
+            p[at] = x % 4 == 3 ? 255 : (uint8_t)(above + d);
+        }
+    ag_image_save_options up = { .compression = 1 };
+    ag_image *back = save_and_load(*state, image, "a.png", &up);
+    assert_memory_equal(back->pixels, image->pixels, byte_count(image));
+    ag_image_destroy(back);
+    ag_image_destroy(image);
+    free(differences);
+}
+
+// Adler-32, by its definition: two sums modulo 65521.
+static uint32_t adler_of(const uint8_t *data, size_t size)
+{
+    uint32_t a = 1, b = 0;
+    for (size_t i = 0; i < size; i++) {
+        a = (a + data[i]) % 65521;
+        b = (b + a) % 65521;
+    }
+    return b << 16 | a;
+}
+
+static void test_adler(void **state)
+{
+    assert_int_equal(deflate_adler(1, (const uint8_t *)"123456789", 9), 0x091e01de);
+    enum { SIZE = 300000 };
+    uint8_t *data = malloc(SIZE);
+    assert_non_null(data);
+    for (size_t i = 0; i < SIZE; i++)
+        data[i] = i < SIZE / 2 ? 255 : (uint8_t)(i * 31);
+    uint32_t whole = adler_of(data, SIZE);
+    assert_int_equal(deflate_adler(1, data, SIZE), whole);
+    for (size_t cut = 0; cut <= SIZE; cut += 29999) {
+        uint32_t first = deflate_adler(1, data, cut);
+        uint32_t second = deflate_adler(1, data + cut, SIZE - cut);
+        assert_int_equal(deflate_adler_join(first, second, SIZE - cut), whole);
+    }
+    free(data);
+    // ... and in a file, where readers may not look at it: last but the checksum and IEND
+    const folder *f = *state;
+    char path[128];
+    snprintf(path, sizeof path, "%s/a.png", f->path);
+    ag_image_desc desc = { 1, 2, AG_FORMAT_RGBA8,
+                           (const uint8_t[]) { 9, 8, 7, 6, 19, 28, 37, 46 } };
+    ag_image *image;
+    assert_int_equal(ag_image_create(NULL, &desc, &image), AG_OK);
+    assert_int_equal(ag_image_save(NULL, image, path, NULL), AG_OK);
+    ag_image_destroy(image);
+    void *file;
+    size_t size;
+    assert_int_equal(file_read(NULL, path, 1000, &file, &size), AG_OK);
+    const uint8_t filtered[10] = { 4, 9, 8, 7, 6, 4, 10, 20, 30, 40 }, *p = file;
+    uint32_t expected = adler_of(filtered, 10);
+    for (size_t i = 0; i < 4; i++)
+        assert_int_equal(p[size - 20 + i], expected >> (24 - 8 * i) & 255);
+    free(file);
+}
+
+// More bands than are made at a time.
+static void test_png_large(void **state)
+{
+    ag_image *image = make_bytes(1500, 1800, true);
+    ag_image *back = save_and_load(*state, image, "a.png", NULL);
+    assert_memory_equal(back->pixels, image->pixels, byte_count(image));
+    ag_image_destroy(back);
+    ag_image_destroy(image);
 }
 
 static double rms(const ag_image *a, const ag_image *b)
@@ -411,6 +508,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(test_png),
         WITH_FOLDER(test_png_noise),
+        WITH_FOLDER(test_png_long_codes),
+        WITH_FOLDER(test_png_large),
+        WITH_FOLDER(test_adler),
         WITH_FOLDER(test_lossy),
         WITH_FOLDER(test_webp_alpha),
         WITH_FOLDER(test_jpeg_over_white),
