@@ -52,6 +52,10 @@ static void test_images_are_copied_and_mended(void **state)
     scene_environment_close(scene, kept);
     assert_ptr_equal(open_environment(scene), kept); // still there
 
+    uint64_t before = scene->environment_revision;
+    assert_int_equal(ag_scene_set_environment(scene, &desc), AG_OK); // another picture
+    assert_true(scene->environment_revision > before);
+
     // Turning it is a change, but not of the picture.
     uint64_t revision = scene->environment_revision;
     set_kind(scene, AG_ENVIRONMENT_SKY);

@@ -200,6 +200,25 @@ static void test_triangles_without_a_common_edge_stay_apart(void **state)
     ag_scene_destroy(scene);
 }
 
+// Nor do triangles on one side of an edge join: both run along it from the origin to (1, 0).
+static void test_triangles_on_one_side_stay_apart(void **state)
+{
+    (void)state;
+    sentences s = { 0 };
+    ag_scene *scene = make_scene(&s);
+    const float positions[12] = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5f, 1, 0 };
+    const float uvs[8] = { 0, 0, 1, -1, 0, -1, 0, -2 };
+    const uint32_t indices[6] = { 0, 1, 2, 0, 1, 3 };
+    const scene_mesh *mesh = add(scene, positions, flat_normals, uvs, 4, indices, 6);
+    assert_int_equal(mesh->vertex_count, 6);
+    // S + T = (1, 0); T = (0, 1) and (0.25, 0.5).
+    const float *first = mesh->vertices[mesh->indices[0]].tangent;
+    const float *second = mesh->vertices[mesh->indices[3]].tangent;
+    assert_near(first[1] / first[0], -1, 1e-6);
+    assert_near(second[1] / second[0], -0.5 / 0.75, 1e-6);
+    ag_scene_destroy(scene);
+}
+
 // A triangle whose uvs lie on a line joins the two beside it, as MikkTSpace has it: all three
 // get the mean of the outer two, which are 90 degrees each.
 static void test_a_triangle_without_uv_area_links_its_neighbours(void **state)
@@ -429,6 +448,7 @@ int main(void)
         cmocka_unit_test(test_mirrored_halves_are_split),
         cmocka_unit_test(test_angles_weigh),
         cmocka_unit_test(test_triangles_without_a_common_edge_stay_apart),
+        cmocka_unit_test(test_triangles_on_one_side_stay_apart),
         cmocka_unit_test(test_a_triangle_without_uv_area_links_its_neighbours),
         cmocka_unit_test(test_soup_equals_indexed),
         cmocka_unit_test(test_the_order_of_triangles_does_not_matter),
