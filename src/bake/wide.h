@@ -14,6 +14,8 @@ typedef int32_t i32x4 __attribute__((vector_size(16)));
 typedef float f32x8 __attribute__((vector_size(32)));
 typedef int32_t i32x8 __attribute__((vector_size(32)));
 
+// Inlined always, and not only for speed: a function with AVX and one without pass eight
+// floats in different places.
 #define WIDE_INLINE static inline __attribute__((always_inline))
 
 // WIDE_DISPATCH(name, (parameters), (arguments)) makes `name` out of the WIDE_INLINE

@@ -16,14 +16,16 @@ static inline double albedo_g2(double NoV, double NoL, double a2)
     return 1.0 / (1.0 + lv + ll);
 }
 
-// Over the half vectors, by the distribution's inverse (midpoints, steps^2 of them); the
-// light's solid angle is 4 v.h times theirs.
+// Over the half vectors, by the distribution's inverse (midpoints, steps^2 of them, denser
+// towards the flat ones, which grazing eyes see); the light's solid angle is 4 v.h times
+// theirs.
 static inline albedo albedo_of(double NoV, double alpha, int steps)
 {
     double a2 = alpha * alpha, s = sqrt(1.0 - NoV * NoV);
     albedo sum = { 0.0, 0.0 };
     for (int i = 0; i < steps; i++) {
-        double u = (i + 0.5) / steps;
+        double t = (i + 0.5) / steps, u = 1.0 - pow(1.0 - t, 3.0);
+        double density = 3.0 * (1.0 - t) * (1.0 - t);
         double NoH = sqrt((1.0 - u) / (1.0 + (a2 - 1.0) * u)), sh = sqrt(1.0 - NoH * NoH);
         for (int k = 0; k < steps; k++) {
             double VoH = s * sh * cos(3.14159265358979324 * (k + 0.5) / steps) + NoV * NoH;
@@ -31,7 +33,7 @@ static inline albedo albedo_of(double NoV, double alpha, int steps)
             if (VoH <= 0.0 || NoL <= 0.0)
                 continue;
             // D cos dh is uniform in u; the rest of D V cos_l 4 v.h / (D cos_h).
-            double g = albedo_g2(NoV, NoL, a2) * VoH / (NoV * NoH);
+            double g = albedo_g2(NoV, NoL, a2) * VoH / (NoV * NoH) * density;
             double w = pow(1.0 - VoH, 5.0);
             sum.scale += g * (1.0 - w);
             sum.bias += g * w;
