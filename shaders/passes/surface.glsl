@@ -107,7 +107,8 @@ vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness)
     if (has(GPU_TEXTURE_NORMAL))
         open *= environment_horizon_occlusion(
             r, gl_FrontFacing ? normalize(in_normal) : -normalize(in_normal));
-    vec3 prefiltered = textureLod(environment_cube, environment_from_world(r),
+    vec3 lobe = environment_dominant(n, r, roughness * roughness);
+    vec3 prefiltered = textureLod(environment_cube, environment_from_world(lobe),
                                   environment_mip(roughness, frame.environment_mips))
                            .rgb;
     vec3 irradiance = ENVIRONMENT == GPU_ENVIRONMENT_HARMONICS
