@@ -92,7 +92,7 @@ enum {
     GLTF_WARNED_POSITION = 4,
     GLTF_WARNED_RANGE = 8,
     GLTF_WARNED_UV = 16,
-    GLTF_WARNED_NORMAL = 32,
+    GLTF_WARNED_FINITE = 32,
     GLTF_WARNED_IMAGE = 64,
     GLTF_WARNED_ROTATION = 128,
     GLTF_WARNED_SKIN = 256,
@@ -225,10 +225,10 @@ AG_CHECK ag_status gltf_charge(const gltf_at *at, size_t count);
 
 // Read elements [first, first + count) as floats, `width` a row: what the accessor has
 // less of is left as it is in `out`.  Integers are normalised when the accessor says so
-// or `normalize` does.  Values that are not finite are an error at `at`.
-AG_CHECK ag_status gltf_accessor_floats(const gltf_at *at, const gltf_accessor *accessor,
-                                        size_t first, size_t count, size_t width, bool normalize,
-                                        float *out);
+// or `normalize` does.
+void gltf_accessor_floats(const gltf_accessor *accessor, size_t first, size_t count, size_t width,
+                          bool normalize, float *out);
+bool gltf_all_finite(const float *values, size_t count);
 // The same for unsigned integers.
 AG_CHECK ag_status gltf_accessor_uints(const gltf_at *at, const gltf_accessor *accessor,
                                        size_t first, size_t count, size_t width, uint32_t *out);

@@ -301,11 +301,10 @@ static void replace_sparse(const row_format *format, size_t first, size_t count,
     }
 }
 
-// Whether all are finite: by the largest exponent, which vectorises.
-static bool all_finite(const float *values, size_t count)
+bool gltf_all_finite(const float *values, size_t count)
 {
     uint32_t largest = 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++) { // by the exponent, which vectorises
         uint32_t bits;
         memcpy(&bits, values + i, sizeof bits);
         bits &= 0x7FFFFFFFu;
@@ -314,18 +313,14 @@ static bool all_finite(const float *values, size_t count)
     return largest < 0x7F800000u;
 }
 
-ag_status gltf_accessor_floats(const gltf_at *at, const gltf_accessor *accessor, size_t first,
-                               size_t count, size_t width, bool normalize, float *out)
+void gltf_accessor_floats(const gltf_accessor *accessor, size_t first, size_t count, size_t width,
+                          bool normalize, float *out)
 {
     size_t components = (size_t)accessor->rows * accessor->columns;
     row_format format = { accessor, width, components < width ? components : width,
                           accessor->normalized || normalize };
     read_rows(&format, first, count, out);
     replace_sparse(&format, first, count, out);
-    if (accessor->component == GLTF_FLOAT && !all_finite(out, count * width))
-        return gltf_fail(at, AG_ERROR_FORMAT, "accessors[%td] holds a value that is not finite",
-                         accessor - at->file->accessors);
-    return AG_OK;
 }
 
 ag_status gltf_accessor_uints(const gltf_at *at, const gltf_accessor *accessor, size_t first,

@@ -33,9 +33,14 @@ static ag_status read_rows(const gltf_at *attributes, const gltf_attribute *attr
         return gltf_fail(&at, AG_ERROR_FORMAT, "accessors[%zu] has %u elements, POSITION has %zu",
                          index, accessor->count, geometry->element_count);
     status = gltf_charge(&at, geometry->vertex_count);
-    return status ? status
-                  : gltf_accessor_floats(&at, accessor, geometry->first, geometry->vertex_count,
-                                         attribute->width, attribute->normalize, out);
+    if (status)
+        return status;
+    gltf_accessor_floats(accessor, geometry->first, geometry->vertex_count, attribute->width,
+                         attribute->normalize, out);
+    if (!gltf_all_finite(out, geometry->vertex_count * attribute->width))
+        gltf_warn_once(&at, GLTF_WARNED_FINITE, "accessors[%zu] holds a value that is not finite",
+                       index);
+    return AG_OK;
 }
 
 // Add weight * difference of one target.

@@ -145,7 +145,16 @@ static ag_status gather(decode_work *work, const gltf_at *images)
     return status;
 }
 
-// All sentences in the order of the images; the first failure counts.
+// Largest first, so that no core is left with a long one at the end.
+static int compare_jobs(const void *a, const void *b)
+{
+    const decode_job *first = a, *second = b;
+    if (first->size != second->size)
+        return first->size > second->size ? -1 : 1;
+    return first->image < second->image ? -1 : 1;
+}
+
+// All sentences, on the caller's thread; the first failure counts.
 static ag_status collect(decode_work *work)
 {
     for (size_t i = 0; i < work->count; i++) {
@@ -171,6 +180,7 @@ ag_status gltf_images_decode(gltf_file *file)
     if (!status)
         status = gltf_progress(file, "decode", 0.0);
     if (!status) {
+        qsort(work.jobs, work.count, sizeof *work.jobs, compare_jobs);
         parallel_for(work.count, decode, &work);
         status = collect(&work);
     }

@@ -48,7 +48,7 @@ static ag_status check_positions(const gltf_at *attributes, const gltf_geometry 
     gltf_at at = gltf_member(attributes, "POSITION");
     for (size_t i = 0; i < geometry->vertex_count * 3; i++)
         if (!(fabsf(geometry->positions[i]) < 1e18f))
-            return gltf_fail(&at, AG_ERROR_FORMAT, "vertex %zu lies beyond 1e18 m",
+            return gltf_fail(&at, AG_ERROR_FORMAT, "vertex %zu is not finite or lies beyond 1e18 m",
                              geometry->first + i / 3);
     return AG_OK;
 }
@@ -124,6 +124,14 @@ static ag_status build(const gltf_at *primitive, uint32_t node, ag_mesh *mesh, b
     return status;
 }
 
+// Whether it has morph targets, and as many as the weights of its mesh.
+static bool has_targets(const gltf_at *primitive)
+{
+    size_t weights = json_array_size(json_object_get(primitive->up->up->json, "weights"));
+    size_t targets = json_array_size(json_object_get(primitive->json, "targets"));
+    return targets > 0 && weights == targets;
+}
+
 // What makes up the mesh, as text: equal texts, equal meshes.  NULL without memory.
 static char *describe(const gltf_at *primitive)
 {
@@ -134,9 +142,9 @@ static char *describe(const gltf_at *primitive)
         if (json_object_get(primitive->json, parts[i]))
             (void)json_object_set_nocheck(parts_json, parts[i],
                                           json_object_get(primitive->json, parts[i]));
-    if (json_object_get(primitive->json, "targets"))
-        (void)json_object_set_nocheck(parts_json, "weights",
-                                      json_object_get(primitive->up->up->json, "weights"));
+    json_t *weights = json_object_get(primitive->up->up->json, "weights");
+    if (has_targets(primitive))
+        (void)json_object_set_nocheck(parts_json, "weights", weights);
     uint32_t material = (uint32_t)json_integer_value(json_object_get(primitive->json, "material"));
     const ag_texture_use *normal = NULL;
     if (json_object_get(primitive->json, "material") && material < file->material_count)
@@ -179,7 +187,9 @@ ag_status gltf_primitive_add(const gltf_at *primitive, uint32_t node, ag_mesh *m
     gltf_at node_at = gltf_item(&nodes, node);
     ag_status status = AG_OK;
     *posed = false;
-    if (file->nodes[node].skin != GLTF_NONE || gltf_member(&node_at, "weights").json) {
+    bool own_weights =
+        gltf_member(&node_at, "weights").json && gltf_member(primitive, "targets").json;
+    if (file->nodes[node].skin != GLTF_NONE || own_weights) {
         status = build(primitive, node, mesh, posed);
     } else {
         ag_mesh **slots = &file->meshes[file->nodes[node].mesh];

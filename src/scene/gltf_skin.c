@@ -42,16 +42,16 @@ static ag_status pose_joint(const gltf_at *item, const gltf_accessor *inverse_bi
         return status;
     gltf_matrix_identity(bind);
     if (inverse_binds) {
-        status = gltf_accessor_floats(item, inverse_binds, item->index, 1, 16, false, inverse_bind);
-        for (int i = 0; i < 16 && !status; i++)
+        gltf_accessor_floats(inverse_binds, item->index, 1, 16, false, inverse_bind);
+        for (int i = 0; i < 16; i++)
             bind[i] = (double)inverse_bind[i];
     }
-    if (status)
-        return status;
     gltf_matrix_multiply(file->nodes[node].world, bind, world);
     *mirrors = gltf_matrix_determinant(world) < 0.0;
     for (int i = 0; i < 16; i++)
         joint[i] = (float)world[i];
+    if (!gltf_all_finite(joint, 16))
+        return gltf_fail(item, AG_ERROR_FORMAT, "its matrix is not finite");
     return AG_OK;
 }
 

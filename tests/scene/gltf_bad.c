@@ -201,6 +201,23 @@ static void expansion_is_bounded(void **state)
     free(text);
 }
 
+// Many nodes that each show a mesh of many parts.
+static void instances_are_bounded(void **state)
+{
+    kit *k = *state;
+    enum { COUNT = 2000 };
+    char *text = malloc(COUNT * 64 + 1000);
+    int used = sprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{\"primitives\":[");
+    for (int i = 0; i < COUNT; i++)
+        used += sprintf(text + used, "%s{\"attributes\":{}}", i ? "," : "");
+    used += sprintf(text + used, "]}],\"nodes\":[");
+    for (int i = 0; i < COUNT; i++)
+        used += sprintf(text + used, "%s{\"mesh\":0}", i ? "," : "");
+    sprintf(text + used, "]}");
+    kit_fails(k, AG_ERROR_FORMAT, "the meshes need more memory than", text, NULL, 0);
+    free(text);
+}
+
 // ---- Progress ------------------------------------------------------------------------
 
 typedef struct heard {
@@ -245,10 +262,15 @@ static void progress(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cut_at_every_length),  cmocka_unit_test(every_byte_changed),
-        cmocka_unit_test(containers),           cmocka_unit_test(documents),
-        cmocka_unit_test(buffer_views),         cmocka_unit_test(deep_json),
-        cmocka_unit_test(expansion_is_bounded), cmocka_unit_test(progress),
+        cmocka_unit_test(cut_at_every_length),
+        cmocka_unit_test(every_byte_changed),
+        cmocka_unit_test(containers),
+        cmocka_unit_test(documents),
+        cmocka_unit_test(buffer_views),
+        cmocka_unit_test(deep_json),
+        cmocka_unit_test(expansion_is_bounded),
+        cmocka_unit_test(instances_are_bounded),
+        cmocka_unit_test(progress),
     };
     return cmocka_run_group_tests(tests, kit_setup, kit_teardown);
 }

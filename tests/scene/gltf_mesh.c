@@ -108,6 +108,20 @@ static void bad_indices(void **state)
               zigzag_json(",'indices':6"), &bin, sizeof bin);
 }
 
+// The restart value stays forbidden where there are vertices enough.
+static void restart_among_many_vertices(void **state)
+{
+    kit *k = *state;
+    const uint8_t bin[4] = { 0, 1, 255, 0 };
+    kit_fails(k, AG_ERROR_FORMAT, "index 2 is 255, which restarts",
+              kit_json("{'asset':{'version':'2.0'},'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],"
+                       "'buffers':[{'byteLength':4}],'bufferViews':[{'buffer':0,'byteLength':4}],"
+                       "'accessors':[{'componentType':5126,'type':'VEC3','count':300},"
+                       "{'bufferView':0,'componentType':5121,'type':'SCALAR','count':3}],"
+                       "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1}]}]}"),
+              bin, sizeof bin);
+}
+
 static void missing_normals_are_flat(void **state)
 {
     kit *k = *state;
@@ -352,6 +366,7 @@ int main(void)
         cmocka_unit_test(strips_without_surface),
         cmocka_unit_test(no_surface),
         cmocka_unit_test(bad_indices),
+        cmocka_unit_test(restart_among_many_vertices),
         cmocka_unit_test(missing_normals_are_flat),
         cmocka_unit_test(morph_targets),
         cmocka_unit_test(skins),

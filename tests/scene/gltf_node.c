@@ -55,8 +55,9 @@ static void scenes(void **state)
 {
     kit *k = *state;
     const char *nodes = "{'mesh':0},{'mesh':0,'translation':[1,0,0]},{'children':[1]}";
-    const char *two = ",'scenes':[{'nodes':[0]},{'nodes':[2,2]}]%s";
+    const char *two = ",'scenes':[{'nodes':[0,0]},{'nodes':[2,2]}]%s";
     loads(k, nodes, kit_json(two, ""), 0);
+    assert_int_equal(k->scene->instances_count, 1);
     kit_near(k->scene->instances[0].world[12], 0, 0);
     loads(k, nodes, kit_json(two, ",'scene':1"), 0);
     assert_int_equal(k->scene->instances_count, 1);
@@ -250,6 +251,10 @@ static void lights(void **state)
     kit_near(l[2].cone_outer_rad, 0.4, 1e-6);
     kit_near(l[2].intensity, 1, 0);
     kit_near(l[2].range_m, 0, 0);
+    loads(k, "{'mesh':0,'extensions':{'KHR_lights_punctual':{'light':0}}}",
+          with_lights("{'type':'spot','spot':{}}"), 0);
+    kit_near(k->scene->lights[0].cone_inner_rad, 0, 0);
+    kit_near(k->scene->lights[0].cone_outer_rad, 0.78539816, 1e-6);
 }
 
 static void bad_lights(void **state)
