@@ -256,6 +256,18 @@ static void image_sources(void **state)
     assert_int_equal(color_of(k, &m->emissive_texture), 2);
     assert_int_equal(k->scene->images_count, 1);
     assert_int_equal(k->scene->textures_count, 2);
+    // Two images of one buffer view are one.
+    snprintf(json, sizeof json, "%s",
+             textured_json(&t, "'normalTexture':{'index':0},'emissiveTexture':{'index':1}", ""));
+    *strstr(strstr(json, "\"images\""), "View\":2") = 'v'; // images[1] has none now
+    assert_int_equal(kit_load_glb(k, json, t.bytes, t.size), AG_ERROR_FORMAT);
+    assert_non_null(strstr(k->said, "images[1]: has neither a uri nor a bufferView"));
+    char *view = strstr(strstr(json, "\"images\""), "view\":2");
+    memcpy(view, "View\":1", 7);
+    kit_loads(k, json, t.bytes, t.size, 0);
+    assert_int_equal(k->scene->images_count, 1);
+    assert_int_equal(k->scene->textures_count, 2);
+    assert_int_equal(color_of(k, &k->scene->materials[1].emissive_texture), 0);
 }
 
 static void broken_images(void **state)
