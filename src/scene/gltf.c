@@ -17,20 +17,21 @@ ag_status gltf_progress(gltf_file *file, const char *stage, double fraction)
     return log_fail(&file->log, AG_ERROR_CANCELLED, "%s: loading was cancelled", file->path);
 }
 
-// Every byte of a file may stand for a handful of values (a strip's index of one byte is
-// a triangle), and tiny files may ask for zeros.
-static size_t budget_of(size_t size)
+ag_status gltf_charge(const gltf_at *at, size_t *budget, size_t count)
 {
-    return ((size_t)8 << 20) + 8 * size;
+    if (count > *budget)
+        return gltf_fail(at, AG_ERROR_FORMAT,
+                         "the meshes need more memory or work than a file of this size justifies");
+    *budget -= count;
+    return AG_OK;
 }
 
-ag_status gltf_charge(const gltf_at *at, size_t count)
+// Generous: a strip's index of one byte may be a triangle, skinned crowds repeat what
+// they are made of, and tiny files may ask for zeros.
+static void grant_budgets(gltf_file *file)
 {
-    if (count > at->file->budget)
-        return gltf_fail(at, AG_ERROR_FORMAT,
-                         "the meshes need more memory than a file of this size justifies");
-    at->file->budget -= count;
-    return AG_OK;
+    file->vertex_budget = ((size_t)4 << 20) + 16 * file->total_size;
+    file->work_budget = ((size_t)64 << 20) + 64 * file->total_size;
 }
 
 static void finish(gltf_file *file)
@@ -67,7 +68,7 @@ static ag_status read_structure(gltf_file *file)
         status = gltf_extensions_read(file);
     if (!status)
         status = gltf_buffers_read(file);
-    file->budget = budget_of(file->total_size);
+    grant_budgets(file);
     if (!status)
         status = gltf_accessors_read(file);
     if (!status)

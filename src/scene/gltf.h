@@ -111,7 +111,7 @@ typedef struct gltf_file {
     size_t total_size;  // of the file and the buffers beside it
     const uint8_t *bin; // the binary chunk of a .glb
     size_t bin_size;
-    size_t budget; // how many more values meshes may expand to; see gltf_charge
+    size_t vertex_budget, work_budget; // see gltf_charge
     unsigned warned;
     double decode_ms;
 
@@ -219,9 +219,10 @@ AG_CHECK ag_status gltf_camera_add(gltf_file *file, uint32_t node);
 
 AG_CHECK ag_status gltf_progress(gltf_file *file, const char *stage, double fraction);
 
-// Take `count` values off what the file's size justifies, so that a small file cannot
-// make meshes without bound by naming the same bytes again and again.
-AG_CHECK ag_status gltf_charge(const gltf_at *at, size_t count);
+// Take `count` off one of the file's budgets, which grow with its size, so that a small
+// file cannot take memory or time without bound by naming the same bytes again and again:
+// vertices kept in the scene, and rows read.
+AG_CHECK ag_status gltf_charge(const gltf_at *at, size_t *budget, size_t count);
 
 // Read elements [first, first + count) as floats, `width` a row: what the accessor has
 // less of is left as it is in `out`.  Integers are normalised when the accessor says so

@@ -154,7 +154,7 @@ static ag_status read_elements(const gltf_at *at, gltf_accessor *accessor)
 {
     gltf_at view_at = gltf_member(at, "bufferView"), count_at = gltf_member(at, "count");
     accessor->stride = element_size(accessor);
-    if (!view_at.json && accessor->count > at->file->budget)
+    if (!view_at.json && accessor->count > at->file->vertex_budget)
         return gltf_fail(&count_at, AG_ERROR_FORMAT,
                          "%u zeros are more than a file of this size may ask for", accessor->count);
     if (!view_at.json)

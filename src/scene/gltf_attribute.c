@@ -32,7 +32,7 @@ static ag_status read_rows(const gltf_at *attributes, const gltf_attribute *attr
     if (accessor->count != geometry->element_count)
         return gltf_fail(&at, AG_ERROR_FORMAT, "accessors[%zu] has %u elements, POSITION has %zu",
                          index, accessor->count, geometry->element_count);
-    status = gltf_charge(&at, geometry->vertex_count);
+    status = gltf_charge(&at, &at.file->work_budget, geometry->vertex_count);
     if (status)
         return status;
     gltf_accessor_floats(accessor, geometry->first, geometry->vertex_count, attribute->width,
@@ -120,7 +120,7 @@ ag_status gltf_morph_read(const gltf_at *primitive, const gltf_at *mesh, uint32_
     morph->count = gltf_length(&morph->targets);
     if (status || morph->count == 0)
         return status;
-    status = gltf_charge(&morph->targets, morph->count);
+    status = gltf_charge(&morph->targets, &primitive->file->work_budget, morph->count);
     if (status)
         return status;
     morph->weights = calloc(morph->count, sizeof *morph->weights);

@@ -60,7 +60,7 @@ static ag_status read_corners(const gltf_at *primitive, size_t vertex_count, cor
     }
     const gltf_accessor *accessor = &file->accessors[index];
     corners->count = accessor->count;
-    status = gltf_charge(&at, accessor->count);
+    status = gltf_charge(&at, &file->work_budget, accessor->count);
     if (status)
         return status;
     corners->indices = malloc(accessor->count * sizeof *corners->indices);
@@ -83,7 +83,7 @@ static ag_status unroll(const gltf_at *at, const corner_list *corners, bool stri
                         gltf_geometry *geometry)
 {
     size_t count = corners->count - 2;
-    ag_status status = gltf_charge(at, 3 * count);
+    ag_status status = gltf_charge(at, &at->file->work_budget, 3 * count);
     if (status)
         return status;
     geometry->indices = malloc(3 * count * sizeof *geometry->indices);

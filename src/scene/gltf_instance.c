@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-enum { INSTANCE_VALUES = 4 }; // what one counts against the budget
+enum { INSTANCE_WORK = 64 }; // what one counts, in rows read
 
 // Squeezed to a line or a point there is no surface left; scale 0 hides things so.
 static bool is_collapsed(const double world[16])
@@ -23,7 +23,7 @@ static ag_status add_instance(const gltf_at *primitive, uint32_t index)
     ag_mesh mesh = { 0 };
     bool posed = false;
     uint32_t material = GLTF_NONE;
-    ag_status status = gltf_charge(primitive, INSTANCE_VALUES);
+    ag_status status = gltf_charge(primitive, &file->work_budget, INSTANCE_WORK);
     if (!status)
         status = gltf_index(primitive, "material", file->material_count, "materials", &material);
     if (!status)

@@ -81,6 +81,15 @@ static ag_status add_to_scene(const gltf_at *primitive, const gltf_geometry *geo
     return ag_scene_add_mesh(file->scene, &desc, mesh);
 }
 
+// What the mesh will take in the scene; flat triangles have vertices of their own.
+static ag_status charge_vertices(const gltf_at *attributes, const gltf_geometry *geometry)
+{
+    bool flat = !gltf_member(attributes, "NORMAL").json;
+    size_t vertices = flat ? geometry->index_count : geometry->vertex_count;
+    return gltf_charge(attributes, &attributes->file->vertex_budget,
+                       vertices + geometry->vertex_count / 4 + geometry->index_count / 16);
+}
+
 static ag_status read_geometry(const gltf_at *primitive, uint32_t node, const gltf_morph *morph,
                                gltf_geometry *geometry, bool *posed)
 {
@@ -88,6 +97,8 @@ static ag_status read_geometry(const gltf_at *primitive, uint32_t node, const gl
     gltf_at attributes;
     uint32_t skin = file->nodes[node].skin;
     ag_status status = gltf_object(primitive, "attributes", &attributes);
+    if (!status)
+        status = charge_vertices(&attributes, geometry);
     if (!status)
         status = read_attributes(&attributes, morph, geometry);
     if (!status && skin != GLTF_NONE)

@@ -135,7 +135,7 @@ static ag_status add_set(const gltf_at *attributes, const gltf_skin *skin, unsig
                          geometry->element_count);
     status = gltf_require(attributes, weights_name);
     if (!status)
-        status = gltf_charge(&at, 4 * sum->count);
+        status = gltf_charge(&at, &at.file->work_budget, 4 * sum->count);
     uint32_t *joints = status ? NULL : malloc(sum->count * 4 * sizeof *joints);
     float *weights = NULL;
     if (!status && !joints)
