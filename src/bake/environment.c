@@ -16,7 +16,7 @@
 #include <stdlib.h>
 
 enum {
-    FORMAT_VERSION = 2, // of what is baked: raise it when the same pixels give another result
+    FORMAT_VERSION = 3, // of what is baked: raise it when the same pixels give another result
     EDGE_MIN = 128,
     EDGE_MAX = 512,
     EDGE_LAST = 8,       // px, of the last mip, roughness 1

@@ -18,7 +18,7 @@ typedef struct bake_environment {
     float sh[9][3];
 } bake_environment;
 
-enum { BAKE_IRRADIANCE_SIZE = 16 }; // px, edge of a face of the irradiance cube
+enum { BAKE_IRRADIANCE_SIZE = 32 }; // px, edge of a face of the irradiance cube
 
 // Bytes from the start of the cube to face 0 of mip `mip`; for mip_count, to the
 // irradiance cube.
