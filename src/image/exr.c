@@ -118,6 +118,19 @@ static ag_status read_channels(const source *s, exr_const_context_t exr, layout 
     return AG_OK;
 }
 
+static ag_status check_compression(const source *s, exr_const_context_t exr)
+{
+    exr_compression_t kind;
+    exr_result_t code = exr_get_compression(exr, 0, &kind);
+    if (code)
+        return fail(s, code);
+    if (kind == EXR_COMPRESSION_DWAA || kind == EXR_COMPRESSION_DWAB) // not in OpenEXRCore 3.1
+        return log_fail(s->log, AG_ERROR_UNSUPPORTED,
+                        "%s: OpenEXR's compression DWA%c cannot be read; save it as ZIP or PIZ",
+                        s->name, kind == EXR_COMPRESSION_DWAA ? 'A' : 'B');
+    return AG_OK;
+}
+
 static ag_status read_layout(const source *s, exr_const_context_t exr, layout *l)
 {
     int parts = 0;
@@ -143,7 +156,8 @@ static ag_status read_layout(const source *s, exr_const_context_t exr, layout *l
                                height < 1 ? 0 : (uint64_t)height, s->size);
     l->width = (uint32_t)width;
     l->height = (uint32_t)height;
-    return read_channels(s, exr, l);
+    ag_status status = check_compression(s, exr);
+    return status ? status : read_channels(s, exr, l);
 }
 
 // Decode one chunk into the rectangle whose first pixel is `out`.

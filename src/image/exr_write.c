@@ -144,6 +144,7 @@ static exr_result_t encode(const ag_image *image, const char *name, buffer *out)
     settings.error_handler_fn = ignore_reason;
     settings.user_data = out;
     settings.write_fn = write_bytes;
+    settings.zip_level = 1; // a quarter of the time of the default 4, files 8 % larger
     exr_context_t exr = NULL;
     exr_result_t code = rows && halves ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
     if (!code)

@@ -3,30 +3,34 @@
 
 #include "base/log.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// A flat pixel of (2, 2, ...) would be taken for a run-length mark; it cannot occur, as
-// the largest mantissa of ours is at least 128.
+enum { WRITE_BYTES = 1 << 16 }; // at once, or a scanline
+
+// A flat pixel of (1, 1, 1, ...) or (2, 2, ...) would be taken for a mark; it cannot occur,
+// as the largest mantissa of ours is at least 128.
 static void rgbe_from_floats(const float *in, uint8_t out[4])
 {
-    float largest = 0;
-    float v[3];
+    float v[3], largest = 0;
     for (int c = 0; c < 3; c++) { // NaN and negative -> 0; the format's end is 255 * 2^119
-        v[c] = in[c] > 0 ? fminf(in[c], 0x1.fep126f) : 0;
-        largest = fmaxf(largest, v[c]);
+        v[c] = in[c] > 0 ? in[c] < 0x1.fep126f ? in[c] : 0x1.fep126f : 0;
+        largest = v[c] > largest ? v[c] : largest;
     }
     memset(out, 0, 4);
-    if (largest < 0x1p-128f)
+    if (largest < 0x1p-126f)
         return;
-    int exponent;
-    frexpf(largest, &exponent);
-    if (ldexpf(largest, 8 - exponent) >= 255.5f) // would round to 256
+    uint32_t bits;
+    memcpy(&bits, &largest, sizeof bits);
+    int exponent = (int)(bits >> 23) - 126; // of a fraction of 1/2 to 1
+    if ((bits & 0x7fffff) >= 0x7f8000)      // 255.5 / 256 and more would round to 256
         exponent++;
+    uint64_t scale_bits = (uint64_t)(1023 + 8 - exponent) << 52;
+    double scale;
+    memcpy(&scale, &scale_bits, sizeof scale);
     for (int c = 0; c < 3; c++)
-        out[c] = (uint8_t)lrintf(ldexpf(v[c], 8 - exponent));
+        out[c] = (uint8_t)((double)v[c] * scale + 0.5);
     out[3] = (uint8_t)(exponent + 128);
 }
 
@@ -88,21 +92,23 @@ ag_status image_encode_hdr(const ag_log *log, const char *name, const ag_image *
                            const ag_image_save_options *options, file_writer *out)
 {
     (void)options;
-    size_t width = image->width;
-    uint8_t *planes = malloc(width * 4), *bytes = malloc(width * 5 + 64);
+    size_t width = image->width, most = width * 5 + 64; // bytes of a scanline
+    size_t room = most < WRITE_BYTES ? WRITE_BYTES : most, used = 0;
+    uint8_t *planes = malloc(width * 4), *bytes = malloc(room + 128);
     ag_status status = AG_OK;
     if (!planes || !bytes)
         status = log_fail(log, AG_ERROR_MEMORY, "%s: no memory for a scanline", name);
-    char header[128];
-    int length =
-        snprintf(header, sizeof header, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n",
-                 image->height, image->width);
-    if (!status)
-        status = file_writer_put(out, header, (size_t)length);
+    else
+        used = (size_t)snprintf((char *)bytes, 128,
+                                "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n",
+                                image->height, image->width);
     for (uint32_t y = 0; y < image->height && !status; y++) {
         const float *row = (const float *)image->pixels + y * width * 4;
-        size_t size = encode_scanline(row, image->width, planes, bytes);
-        status = file_writer_put(out, bytes, size);
+        used += encode_scanline(row, image->width, planes, bytes + used);
+        if (used + most <= room && y + 1 < image->height)
+            continue;
+        status = file_writer_put(out, bytes, used);
+        used = 0;
     }
     free(planes);
     free(bytes);

@@ -142,6 +142,7 @@ static void test_sentences(void **state)
         { "hdr/bad-axes.hdr", "-Y 7 +Y 9", AG_ERROR_FORMAT },
         { "hdr/bad-first-run.hdr", "scanline 1 of 1", AG_ERROR_FORMAT },
         { "exr/bad-channels.exr", "no channels", AG_ERROR_UNSUPPORTED },
+        { "exr/bad-dwaa.exr", "DWAA", AG_ERROR_UNSUPPORTED },
         { "exr/bad-huge.exr", "100000 x 100000", AG_ERROR_UNSUPPORTED },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -254,6 +254,33 @@ static void test_exr_alpha(void **state)
     }
 }
 
+// Written by the OpenEXR library itself: 20 x 18, value (79 x + 100 y + 2001 c + 1234) mod
+// 65536, its upper 8 bits, / 256.  B44 keeps about 6 bits.
+static void test_exr_compressions(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        double tolerance;
+    } files[] = { { "exr/library-rle.exr", 0 },
+                  { "exr/library-piz.exr", 0 },
+                  { "exr/library-pxr24.exr", 0 },
+                  { "exr/library-b44.exr", 1.0 / 64 },
+                  { "exr/library-b44a.exr", 1.0 / 64 } };
+    for (int i = 0; i < 5; i++) {
+        ag_image *image = load_file(files[i].name);
+        check_size(image, 20, 18);
+        for (uint32_t y = 0; y < 18; y++)
+            for (uint32_t x = 0; x < 20; x++)
+                for (uint32_t c = 0; c < 3; c++) {
+                    uint32_t v = (79 * x + 100 * y + 2001 * c + 1234) % 65536 >> 8;
+                    assert_close((double)float_pixel(image, x, y)[c], v / 256.0,
+                                 files[i].tolerance);
+                }
+        ag_image_destroy(image);
+    }
+}
+
 static void test_exr_luminance(void **state)
 {
     (void)state;
@@ -269,11 +296,17 @@ static void test_exr_luminance(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png_kinds),      cmocka_unit_test(test_png_palettes),
-        cmocka_unit_test(test_png_color_keys), cmocka_unit_test(test_jpeg),
-        cmocka_unit_test(test_webp),           cmocka_unit_test(test_hdr),
-        cmocka_unit_test(test_hdr_old_runs),   cmocka_unit_test(test_exr),
-        cmocka_unit_test(test_exr_alpha),      cmocka_unit_test(test_exr_luminance),
+        cmocka_unit_test(test_png_kinds),
+        cmocka_unit_test(test_png_palettes),
+        cmocka_unit_test(test_png_color_keys),
+        cmocka_unit_test(test_jpeg),
+        cmocka_unit_test(test_webp),
+        cmocka_unit_test(test_hdr),
+        cmocka_unit_test(test_hdr_old_runs),
+        cmocka_unit_test(test_exr),
+        cmocka_unit_test(test_exr_alpha),
+        cmocka_unit_test(test_exr_luminance),
+        cmocka_unit_test(test_exr_compressions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -339,6 +339,8 @@ def exr_files():
     yield "bad-subsampled.exr", exr("BGR", [HALF] * 3, sampling=2)
     yield "bad-channels.exr", exr("Z", [FLOAT])
     yield "bad-chroma.exr", exr(["BY", "RY", "Y"], [HALF] * 3)
+    yield "bad-dwaa.exr", exr("BGR", [HALF] * 3).replace(
+        b"compression\0\x01\0\0\0\0", b"compression\0\x01\0\0\0\x08")
     yield "bad-huge.exr", exr("Y", [HALF]).replace(
         struct.pack("<iiii", 0, 0, WIDTH - 1, HEIGHT - 1), struct.pack("<iiii", 0, 0, 99999, 99999))
 

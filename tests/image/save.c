@@ -316,6 +316,8 @@ static void test_hdr(void **state)
     check_hdr(*state, 129, 5);
     check_hdr(*state, 1000, 2);
     check_hdr(*state, 32768, 1); // too wide for them
+    check_hdr(*state, 13094, 3); // a scanline is just all that is written at once
+    check_hdr(*state, 200, 200);
 }
 
 static void test_hdr_extremes(void **state)
