@@ -34,7 +34,8 @@ static inline albedo albedo_of(double NoV, double alpha, int steps)
                 continue;
             // D cos dh is uniform in u; the rest of D V cos_l 4 v.h / (D cos_h).
             double g = albedo_g2(NoV, NoL, a2) * VoH / (NoV * NoH) * density;
-            double w = pow(1.0 - VoH, 5.0);
+            double w = (1.0 - VoH) * (1.0 - VoH);
+            w *= w * (1.0 - VoH);
             sum.scale += g * (1.0 - w);
             sum.bias += g * w;
         }

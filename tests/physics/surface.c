@@ -150,7 +150,9 @@ static double lobe_albedo(surface s, float NoV, double alpha)
     double a2 = alpha * alpha, sum = 0.0;
     enum { STEPS = 300 };
     for (int i = 0; i < STEPS; i++) {
-        double u = (i + 0.5) / STEPS, NoH = sqrt((1.0 - u) / (1.0 + (a2 - 1.0) * u));
+        double t = (i + 0.5) / STEPS, u = 1.0 - pow(1.0 - t, 3.0); // as in albedo.h
+        double density = 3.0 * (1.0 - t) * (1.0 - t);
+        double NoH = sqrt((1.0 - u) / (1.0 + (a2 - 1.0) * u));
         double sh = sqrt(1.0 - NoH * NoH);
         double d = a2 / ((double)PI * pow(NoH * NoH * (a2 - 1.0) + 1.0, 2.0));
         for (int k = 0; k < STEPS; k++) {
@@ -159,7 +161,7 @@ static double lobe_albedo(surface s, float NoV, double alpha)
             double VoH = (double)dot(wo, h);
             vec3 wi = reflect(-wo, h);
             if (VoH > 0.0 && wi[2] > 0.0f)
-                sum += (double)surface_direct(s, n, wo, wi)[0] * 4.0 * VoH / (d * NoH);
+                sum += (double)surface_direct(s, n, wo, wi)[0] * 4.0 * VoH / (d * NoH) * density;
         }
     }
     return sum / ((double)STEPS * STEPS);
