@@ -70,41 +70,82 @@ typedef struct frame {
     double axis[3][3];
 } frame;
 
-// The box corners of all instances, one after the other, in `frame`; 8 per instance.
-static void corner_in_frame(const ag_scene *scene, size_t instance, unsigned corner, const frame *f,
-                            double out[3])
+// The way from an instance's mesh to a frame.
+typedef struct affine {
+    double m[3][4];
+} affine;
+
+static affine frame_from_mesh(const frame *f, const float world[16])
 {
-    const scene_instance *shown = &scene->instances[instance];
-    const scene_mesh *mesh = &scene->meshes[shown->mesh];
-    double world[3];
+    affine a;
     for (int row = 0; row < 3; row++) {
-        world[row] = (double)shown->world[12 + row] - f->origin[row];
-        for (int column = 0; column < 3; column++) {
-            float p = corner >> column & 1u ? mesh->max[column] : mesh->min[column];
-            world[row] += (double)shown->world[4 * column + row] * (double)p;
+        for (int column = 0; column < 4; column++) {
+            a.m[row][column] = 0.0;
+            for (int i = 0; i < 3; i++)
+                a.m[row][column] += f->axis[row][i] * ((double)world[4 * column + i] -
+                                                       (column == 3 ? f->origin[i] : 0.0));
         }
     }
-    for (int i = 0; i < 3; i++)
-        out[i] = f->axis[i][0] * world[0] + f->axis[i][1] * world[1] + f->axis[i][2] * world[2];
+    return a;
 }
 
-// The smallest distance at which every corner p of every box lies inside a perspective view
-// whose half extents at distance 1 are tx, ty: |p.x| <= (r - p.z) tx, so r >= p.z + |p.x| / tx,
-// and likewise for y.
+// What a perspective view must keep in front of it, its half extents at distance 1 being
+// tx and ty.
+typedef struct fit {
+    double tx, ty;
+    double distance; // of the eye from the target
+    double nearest;  // of any point's z
+    double extent;   // of any point's coordinate
+} fit;
+
+// A point p is inside if |x| <= (distance - z) tx, so distance >= z + |x| / tx; likewise y.
+static void fit_point(fit *f, const affine *a, double x, double y, double z)
+{
+    double p[3];
+    for (int i = 0; i < 3; i++)
+        p[i] = a->m[i][0] * x + a->m[i][1] * y + a->m[i][2] * z + a->m[i][3];
+    f->distance = fmax(f->distance, p[2] + fmax(fabs(p[0]) / f->tx, fabs(p[1]) / f->ty));
+    f->nearest = fmax(f->nearest, p[2]);
+    f->extent = fmax(f->extent, fmax(fabs(p[2]), fmax(fabs(p[0]), fabs(p[1]))));
+}
+
+static void fit_box(fit *f, const affine *a, const scene_mesh *mesh)
+{
+    for (unsigned corner = 0; corner < 8; corner++)
+        fit_point(f, a, (double)(corner & 1u ? mesh->max : mesh->min)[0],
+                  (double)(corner & 2u ? mesh->max : mesh->min)[1],
+                  (double)(corner & 4u ? mesh->max : mesh->min)[2]);
+}
+
+static void fit_mesh(fit *f, const affine *a, const scene_mesh *mesh)
+{
+    for (uint32_t i = 0; i < mesh->index_count; i++) {
+        const float *p = mesh->vertices[mesh->indices[i]].position;
+        fit_point(f, a, (double)p[0], (double)p[1], (double)p[2]);
+    }
+}
+
+// The smallest distance at which everything is inside.  Only instances whose box would move the
+// eye further are looked at vertex by vertex; past a budget the box decides alone.
 static double fitting_distance(const ag_scene *scene, const frame *f, double tx, double ty)
 {
-    double distance = 0.0, extent = 0.0;
+    size_t budget = (size_t)1 << 22; // corners
+    fit all = { .tx = tx, .ty = ty };
     for (size_t i = 0; i < scene->instances_count; i++) {
-        for (unsigned corner = 0; corner < 8; corner++) {
-            double p[3];
-            corner_in_frame(scene, i, corner, f, p);
-            distance = fmax(distance, p[2] + fmax(fabs(p[0]) / tx, fabs(p[1]) / ty));
-            extent = fmax(extent, fmax(fabs(p[2]), fmax(fabs(p[0]), fabs(p[1]))));
+        const scene_mesh *mesh = &scene->meshes[scene->instances[i].mesh];
+        affine a = frame_from_mesh(f, scene->instances[i].world);
+        fit boxed = all;
+        fit_box(&boxed, &a, mesh);
+        if (boxed.distance > all.distance && mesh->index_count <= budget) {
+            budget -= mesh->index_count;
+            fit_mesh(&all, &a, mesh);
+        } else {
+            all = boxed;
         }
     }
-    if (extent == 0.0) // nothing, or a single point
+    if (all.extent == 0.0) // nothing, or a single point
         return 1.0;
-    return fmax(distance, 1.1 * extent); // a line seen from its end has no width
+    return fmax(all.distance, all.nearest + 0.001 * all.extent); // a line seen from its end
 }
 
 // ---- Framing ---------------------------------------------------------------

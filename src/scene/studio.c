@@ -1,5 +1,6 @@
 // The studio: a dim neutral room, darker below, with soft boxes: a large key to the left, a wide
-// fill to the right, a bank overhead, and two narrow rim lights behind.
+// fill to the right, a bank overhead, and a narrow rim light on either side, placed so that the
+// automatic view sees none of them behind the scene.
 #include "scene/environment.h"
 
 typedef struct soft_box {
@@ -17,9 +18,9 @@ static const soft_box boxes[] = {
     // bank: overhead, a little behind
     { { 0.10f, 0.94f, -0.33f }, 0.60f, 0.22f, 0.10f, { 1.5f, 1.5f, 1.5f } },
     // rim: behind, to the right
-    { { 0.56f, 0.28f, -0.78f }, 0.12f, 0.55f, 0.05f, { 5.0f, 5.2f, 5.5f } },
+    { { 0.72f, 0.28f, -0.64f }, 0.12f, 0.55f, 0.05f, { 5.0f, 5.2f, 5.5f } },
     // rim: behind, to the left
-    { { -0.80f, 0.22f, -0.56f }, 0.09f, 0.48f, 0.04f, { 3.6f, 3.5f, 3.3f } },
+    { { -0.96f, 0.24f, -0.16f }, 0.09f, 0.48f, 0.04f, { 3.6f, 3.5f, 3.3f } },
 };
 enum { BOXES = sizeof boxes / sizeof *boxes };
 

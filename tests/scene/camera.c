@@ -105,6 +105,28 @@ static void test_everything_fits_tightly(void **state)
     ag_scene_destroy(scene);
 }
 
+// A sphere of radius 1 touches the edges of the view from 1 / sin(half the angle).
+static void test_a_sphere_fits_tightly(void **state)
+{
+    (void)state;
+    sentences s = { 0 };
+    ag_scene *scene = make_scene(&s);
+    ag_mesh mesh;
+    ag_instance instance;
+    assert_int_equal(primitive_sphere(scene, 1.0f, 400, 200, &mesh), AG_OK);
+    assert_int_equal(ag_scene_add_instance(scene, mesh, (ag_material) { 0 }, NULL, &instance),
+                     AG_OK);
+    const float fovs[] = { 0.2f, 0.8f, 2.0f };
+    for (int i = 0; i < 3; i++) {
+        ag_orbit orbit = ag_orbit_auto();
+        orbit.fov_y_rad = fovs[i];
+        ag_camera_desc camera = ag_scene_frame(scene, &orbit, 1.3f);
+        double wanted = 1 / sin(atan(tan(0.5 * (double)fovs[i]) / margin));
+        assert_near(sqrt(dot3(camera.position, camera.position)) / wanted, 1, 1e-3);
+    }
+    ag_scene_destroy(scene);
+}
+
 static void test_automatic_view(void **state)
 {
     (void)state;
@@ -196,6 +218,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_orbit_formula),
         cmocka_unit_test(test_everything_fits_tightly),
+        cmocka_unit_test(test_a_sphere_fits_tightly),
         cmocka_unit_test(test_automatic_view),
         cmocka_unit_test(test_nothing_to_frame),
         cmocka_unit_test(test_a_huge_scene_stays_finite),
