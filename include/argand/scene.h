@@ -56,8 +56,9 @@ typedef struct ag_load_options {
 AG_CHECK ag_status ag_scene_load(ag_scene *scene, const char *path,
                                  const ag_load_options *options);
 
-// Append a scene that is built in ("spheres", say) with its lights and camera.
-// AG_ERROR_ARGUMENT for an unknown name lists those there are.
+// Append a scene that is built in ("spheres", say) with its lights and one camera, fitted
+// to square pictures; its environment replaces the one there is.  AG_ERROR_ARGUMENT for
+// an unknown name lists those there are.
 AG_CHECK ag_status ag_scene_load_demo(ag_scene *scene, const char *name);
 
 // The built-in scenes: name and one line about demo `index`; false past the last.
@@ -81,6 +82,7 @@ typedef struct ag_texture_desc {
     bool no_mips;
 } ag_texture_desc;
 
+// Add a texture.  AG_ERROR_ARGUMENT without an RGBA8 image.
 AG_CHECK ag_status ag_scene_add_texture(ag_scene *scene, const ag_texture_desc *desc,
                                         ag_texture *texture);
 
@@ -128,12 +130,16 @@ typedef struct ag_material_desc {
 // glTF's defaults: white, metallic 1, roughness 1, ior 1.5, everything else neutral.
 AG_API ag_material_desc ag_material_default(void);
 
+// Add a material; what lies outside the ranges above is clamped to them (an ior between 0
+// and 1 to 1).  AG_ERROR_ARGUMENT on a number that is not finite, a texture that is not in
+// the scene, or a uv set above 1.
 AG_CHECK ag_status ag_scene_add_material(ag_scene *scene, const ag_material_desc *desc,
                                          ag_material *material);
 
 // Triangles.  `normals` NULL -> flat (the vertices are split); `tangents` NULL ->
 // computed from the normals and uv set 0 as MikkTSpace does; the rest NULL -> zero,
-// colours white.
+// colours white.  Counter-clockwise corners face the viewer; (u, v) = (0, 0) is the top left
+// of an image; the bitangent w cross(normal, tangent) points to its top.
 typedef struct ag_mesh_desc {
     const float *positions; // [vertex_count][3] m
     const float *normals;   // [vertex_count][3] unit
@@ -147,10 +153,15 @@ typedef struct ag_mesh_desc {
     bool skip_tangents;      // no normal map will be used: any frame will do, nothing is split
 } ag_mesh_desc;
 
+// Add a mesh.  Normals and tangents are made unit; those without a direction, and uvs and
+// colours that are not finite, are mended.  AG_ERROR_ARGUMENT without a whole triangle;
+// AG_ERROR_FORMAT on an index out of range or a position that is not finite.
 AG_CHECK ag_status ag_scene_add_mesh(ag_scene *scene, const ag_mesh_desc *desc, ag_mesh *mesh);
 
 // Show a mesh with a material (0 -> the default one).  `world` is a column-major
-// affine matrix; NULL -> identity.  Mirroring matrices are allowed.
+// affine matrix, its bottom row taken as 0 0 0 1; NULL -> identity.  Mirroring and
+// flattening matrices are allowed.  AG_ERROR_ARGUMENT on an unknown id or a number that is
+// not finite.
 AG_CHECK ag_status ag_scene_add_instance(ag_scene *scene, ag_mesh mesh, ag_material material,
                                          const float world[16], ag_instance *instance);
 
@@ -164,14 +175,15 @@ typedef struct ag_light_desc {
     ag_light_kind kind;
     float position[3];  // m, world space; ignored for AG_LIGHT_DIRECTIONAL
     float direction[3]; // the way the light travels; 0 -> (0, 0, -1)
-    float color[3];     // linear Rec. 709 weights; 0 -> white
+    float color[3];     // linear Rec. 709 weights, >= 0; all 0 -> white
     float intensity;    // cd (point, spot), lux (directional)
     float range_m;      // point and spot: no light beyond; 0 -> unbounded
     float cone_inner_rad, cone_outer_rad; // spot, from the axis; outer 0 -> pi/4
 } ag_light_desc;
 
-// Add a light.  AG_ERROR_ARGUMENT on NaN, a negative intensity or range, or a cone
-// that is not 0 <= inner < outer <= pi/2.
+// Add a light; one of intensity 0 is dark.  AG_ERROR_ARGUMENT on a number that is not
+// finite, a negative intensity, range or colour, or a spot's cone that is not
+// 0 <= inner < outer <= pi/2.
 AG_CHECK ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_light *light);
 
 typedef struct ag_camera_desc {
@@ -183,6 +195,8 @@ typedef struct ag_camera_desc {
     const char *name;             // copied; NULL -> none
 } ag_camera_desc;
 
+// Add a camera.  AG_ERROR_ARGUMENT on a number that is not finite, a target at its
+// position, a field of view that is not below pi, or far not beyond near.
 AG_CHECK ag_status ag_scene_add_camera(ag_scene *scene, const ag_camera_desc *desc,
                                        ag_camera *camera);
 
@@ -200,7 +214,9 @@ typedef struct ag_environment_desc {
     float intensity;       // factor; 0 -> 1
 } ag_environment_desc;
 
-// Set what surrounds the scene; a new scene has the studio.
+// Set what surrounds the scene; a new scene has the studio.  Pixels that are negative or
+// NaN become black.  AG_ERROR_ARGUMENT on AG_ENVIRONMENT_IMAGE without an RGBA32F image, a
+// negative intensity, or a number that is not finite.
 AG_CHECK ag_status ag_scene_set_environment(ag_scene *scene, const ag_environment_desc *desc);
 
 // ---- Asking it -------------------------------------------------------------
@@ -214,8 +230,8 @@ typedef struct ag_scene_summary {
 
 AG_API ag_scene_summary ag_scene_summarize(const ag_scene *scene);
 
-// The extensions a loaded file names.  `state`: what Argand does about it.  False past
-// the last.  Borrowed from the scene.
+// Extension `index` (from 0) of those that loaded files name; false past the last.  `name`
+// is borrowed: it lives as long as the scene is not changed.
 typedef struct ag_extension_info {
     const char *name;
     bool required;
@@ -223,14 +239,15 @@ typedef struct ag_extension_info {
 } ag_extension_info;
 AG_API bool ag_scene_extension(const ag_scene *scene, size_t index, ag_extension_info *info);
 
-// Camera `index` (from 0) as it was added; false past the last.  `name` is borrowed.
+// Camera `index` (from 0) as it was added, defaults filled in; false past the last.
+// `name` is borrowed: it lives as long as the scene, and may be NULL.
 AG_API bool ag_scene_camera(const ag_scene *scene, size_t index, ag_camera_desc *desc);
 
-// Where a camera should stand.  Angles are degrees' cousins in radians: theta from +Z
-// towards +X, phi from +Y; radius in metres from the target.  NAN in a field -> chosen:
-// a three-quarter view from slightly above (theta 0.6, phi 1.25), at the distance where
-// the whole scene fits.  NAN in the target -> the centre of the scene's bounds.  At radius 0
-// the camera stands on the target and looks the way it would from afar.
+// Where a camera should stand: at target + r (sin phi sin theta, cos phi, sin phi cos theta),
+// that is theta from +Z towards +X and phi from +Y.  NAN in a field -> chosen: a
+// three-quarter view from slightly above (theta 0.6, phi 1.25), at the distance where the
+// whole scene fits with 5 % to spare.  NAN in the target -> the centre of the scene's bounds.
+// At radius 0 the camera stands on the target and looks the way it would from afar.
 typedef struct ag_orbit {
     float theta_rad, phi_rad, radius_m;
     float target[3];
@@ -240,7 +257,7 @@ typedef struct ag_orbit {
 // All fields NAN / defaults: the automatic view.
 AG_API ag_orbit ag_orbit_auto(void);
 
-// A camera on `orbit` for pictures of `aspect` = width / height.
+// A camera on `orbit` (NULL -> the automatic view) for pictures of `aspect` = width / height.
 AG_API ag_camera_desc ag_scene_frame(const ag_scene *scene, const ag_orbit *orbit, float aspect);
 
 #ifdef __cplusplus
