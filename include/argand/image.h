@@ -29,7 +29,10 @@ typedef struct ag_image_desc {
 AG_CHECK ag_status ag_image_create(const ag_log *log, const ag_image_desc *desc, ag_image **image);
 
 // Read PNG, JPEG, WebP (to RGBA8), Radiance HDR or OpenEXR (to RGBA32F).  What it
-// is is told by its first bytes, never by its name.  NULL log -> stderr.
+// is is told by its first bytes, never by its name.  NULL log -> stderr.  No colour
+// profile or gamma is applied; EXR's colours are divided by alpha, HDR's values by the
+// header's exposure.  AG_ERROR_FILE, _FORMAT (broken or cut short) or _UNSUPPORTED, where
+// the sentence names what is.  Takes at most some 20 bytes a pixel, and the file.
 AG_CHECK ag_status ag_image_load(const ag_log *log, const char *path, ag_image **image);
 
 // The same from memory; `name` stands for the file in messages.
@@ -44,8 +47,12 @@ typedef struct ag_image_save_options {
 // Write an image; the name's ending chooses .png .jpg .jpeg .webp (from RGBA8)
 // .hdr .exr (from RGBA32F).  The other format is converted: floats are clipped to
 // [0, 1] and sRGB-coded, bytes are decoded.  JPEG and HDR have no alpha: it is
-// composited over white, as a browser would.  The file appears whole or not at
-// all: it is written beside its place and renamed.  NULL options -> defaults.
+// composited over white, as a browser would.  OpenEXR keeps half floats where they
+// lose nothing, else floats, and colours multiplied by alpha, as it demands.  The
+// file appears whole or not at all: it is written beside its place and renamed.
+// NULL options -> defaults.  AG_ERROR_ARGUMENT on an unknown ending or an option out
+// of range, AG_ERROR_UNSUPPORTED where the format cannot hold the image's size,
+// AG_ERROR_FILE where it cannot be written.
 AG_CHECK ag_status ag_image_save(const ag_log *log, const ag_image *image, const char *path,
                                  const ag_image_save_options *options);
 

@@ -6,6 +6,8 @@
 #include <webp/decode.h>
 #include <webp/encode.h>
 
+enum { PIXELS_PER_BYTE = 4096, FREE_BYTES = 4096 };
+
 static ag_status fail(const ag_log *log, const char *name, VP8StatusCode code)
 {
     static const char *const text[] = {
@@ -58,6 +60,10 @@ ag_status image_decode_webp(const ag_log *log, const char *name, const void *dat
     if (config.input.has_animation)
         return log_fail(log, AG_ERROR_UNSUPPORTED,
                         "%s: an animated WebP; save one of its pictures as a still", name);
+    // One colour takes no bits, whatever the size: this much is let through for nothing.
+    uint64_t width = (uint64_t)config.input.width, height = (uint64_t)config.input.height;
+    if (!codec_size_is_plausible(width, height, size + FREE_BYTES, PIXELS_PER_BYTE))
+        return codec_fail_size(log, name, "WebP", width, height, size);
     return decode(log, name, data, size, &config, image);
 }
 

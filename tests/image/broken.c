@@ -136,6 +136,7 @@ static void test_sentences(void **state)
     } cases[] = {
         { "png/bad-huge.png", "1048576 x 1048576", AG_ERROR_UNSUPPORTED },
         { "png/bad-bomb.png", "16384 x 16384", AG_ERROR_FORMAT },
+        { "webp/bad-huge.webp", "16384 x 16384", AG_ERROR_FORMAT },
         { "webp/bad-animated.webp", "animated", AG_ERROR_UNSUPPORTED },
         { "hdr/bad-xyze.hdr", "32-bit_rle_xyze", AG_ERROR_UNSUPPORTED },
         { "hdr/bad-exposure.hdr", "EXPOSURE=-1", AG_ERROR_FORMAT },
@@ -156,6 +157,29 @@ static void test_sentences(void **state)
     }
 }
 
+// Scan upon scan over a large picture would take minutes.
+static void test_many_scans(void **state)
+{
+    (void)state;
+    size_t size, padded = 200000;
+    uint8_t *data = read_file(CORPUS "/jpeg/gray.jpg", &size);
+    uint8_t *scans = calloc(padded, 1);
+    assert_non_null(scans);
+    memcpy(scans, data, size);
+    static const uint8_t frame[2] = { 0xff, 0xc0 };
+    size_t at = 0;
+    while (memcmp(scans + at, frame, 2) != 0)
+        at++;
+    memcpy(scans + at + 5, ((const uint8_t[]) { 0x3e, 0x80, 0x3e, 0x80 }), 4); // 16000 x 16000
+    for (size_t i = size; i + 100 < padded; i += 1000)
+        memcpy(scans + i, ((const uint8_t[]) { 0xff, 0xda }), 2);
+    kept_log kept;
+    assert_int_equal(load_copy(scans, padded, &kept), AG_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(kept.text, "scans"));
+    free(scans);
+    free(data);
+}
+
 static void test_missing_file(void **state)
 {
     (void)state;
@@ -173,7 +197,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bad_files),    cmocka_unit_test(test_cut_everywhere),
         cmocka_unit_test(test_corrupt),      cmocka_unit_test(test_sentences),
-        cmocka_unit_test(test_missing_file),
+        cmocka_unit_test(test_missing_file), cmocka_unit_test(test_many_scans),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
