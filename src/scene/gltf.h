@@ -58,7 +58,7 @@ typedef struct gltf_node {
 } gltf_node;
 
 typedef struct gltf_skin {
-    float (*joints)[16]; // world from bind pose; NULL until first used
+    double (*joints)[16]; // world from bind pose; NULL until first used
     size_t joint_count;
     bool mirrored; // most of its joints mirror
 } gltf_skin;

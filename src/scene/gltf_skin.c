@@ -31,7 +31,7 @@ static ag_status find_inverse_binds(const gltf_at *at, size_t count, const gltf_
 }
 
 static ag_status pose_joint(const gltf_at *item, const gltf_accessor *inverse_binds,
-                            float joint[16], bool *mirrors)
+                            double joint[16], bool *mirrors)
 {
     gltf_file *file = item->file;
     uint32_t node = 0;
@@ -49,9 +49,9 @@ static ag_status pose_joint(const gltf_at *item, const gltf_accessor *inverse_bi
     gltf_matrix_multiply(file->nodes[node].world, bind, world);
     *mirrors = gltf_matrix_determinant(world) < 0.0;
     for (int i = 0; i < 16; i++)
-        joint[i] = (float)world[i];
-    if (!gltf_all_finite(joint, 16))
-        return gltf_fail(item, AG_ERROR_FORMAT, "its matrix is not finite");
+        if (!isfinite(world[i]))
+            return gltf_fail(item, AG_ERROR_FORMAT, "its matrix is not finite");
+    memcpy(joint, world, sizeof world);
     return AG_OK;
 }
 
@@ -86,20 +86,20 @@ static ag_status pose(const gltf_at *at, gltf_skin *skin)
 
 // For each vertex the weighted sum of its joints' upper three rows, column major.
 typedef struct blend {
-    float (*matrices)[12];
-    float *weight_sums;
+    double (*matrices)[12];
+    double *weight_sums;
     size_t count;
 } blend;
 
 static ag_status add_joint(const gltf_at *at, const gltf_skin *skin, uint32_t joint, float weight,
-                           float matrix[12])
+                           double matrix[12])
 {
     if (joint >= skin->joint_count)
         return gltf_fail(at, AG_ERROR_FORMAT, "names joint %u, but its skin has only %zu", joint,
                          skin->joint_count);
     for (int column = 0; column < 4; column++)
         for (int row = 0; row < 3; row++)
-            matrix[column * 3 + row] += weight * skin->joints[joint][column * 4 + row];
+            matrix[column * 3 + row] += (double)weight * skin->joints[joint][column * 4 + row];
     return AG_OK;
 }
 
@@ -110,7 +110,7 @@ static ag_status add_influences(const gltf_at *at, const gltf_skin *skin, const 
     for (size_t i = 0; i < sum->count * 4 && !status; i++) {
         if (!(weights[i] > 0.0f))
             continue;
-        sum->weight_sums[i / 4] += weights[i];
+        sum->weight_sums[i / 4] += (double)weights[i];
         status = add_joint(at, skin, joints[i], weights[i], sum->matrices[i / 4]);
     }
     return status;
@@ -155,44 +155,40 @@ static ag_status add_set(const gltf_at *attributes, const gltf_skin *skin, unsig
 static void normalize(const gltf_skin *skin, blend *sum)
 {
     for (size_t v = 0; v < sum->count; v++) {
-        float *m = sum->matrices[v], weight = sum->weight_sums[v];
+        double *m = sum->matrices[v], weight = sum->weight_sums[v];
         for (int i = 0; i < 12; i++)
-            m[i] = weight > 0.0f ? m[i] / weight : skin->joints[0][i / 3 * 4 + i % 3];
+            m[i] = weight > 0.0 ? m[i] / weight : skin->joints[0][i / 3 * 4 + i % 3];
     }
 }
 
-static void turn(const float m[9], float v[3])
+static void transform(const double m[9], const double offset[3], float v[3])
 {
-    float x = v[0], y = v[1], z = v[2];
+    double x = (double)v[0], y = (double)v[1], z = (double)v[2];
     for (int i = 0; i < 3; i++)
-        v[i] = m[i] * x + m[3 + i] * y + m[6 + i] * z;
+        v[i] = (float)(m[i] * x + m[3 + i] * y + m[6 + i] * z + offset[i]);
 }
 
-// Normals turn with the cofactors, which is the inverse transpose up to scale.
-static void move_vertex(const float m[12], size_t v, gltf_geometry *geometry)
+// Normals turn with the cofactors, which are the inverse transpose up to scale.
+static void move_vertex(const double m[12], size_t v, gltf_geometry *geometry)
 {
-    double full[16] = { 0 }, cofactor[9];
-    for (int i = 0; i < 12; i++)
-        full[i / 3 * 4 + i % 3] = (double)m[i];
-    float *position = geometry->positions + 3 * v;
-    turn(m, position);
-    for (int i = 0; i < 3; i++)
-        position[i] += m[9 + i];
+    static const double none[3] = { 0.0, 0.0, 0.0 };
+    double full[16] = { 0 }, cofactor[9], largest = 0.0;
+    transform(m, m + 9, geometry->positions + 3 * v);
     if (!geometry->normals)
         return;
+    for (int i = 0; i < 9; i++)
+        full[i / 3 * 4 + i % 3] = m[i];
     gltf_matrix_cofactor(full, cofactor);
     bool mirrors = gltf_matrix_determinant(full) < 0.0;
-    double largest = 0.0;
     for (int i = 0; i < 9; i++)
         largest = fmax(largest, fabs(cofactor[i]));
-    float turned[9];
-    for (int i = 0; i < 9 && largest > 0.0; i++)
-        turned[i] = (float)(cofactor[i] / (mirrors ? -largest : largest));
+    for (int i = 0; i < 9; i++)
+        cofactor[i] /= mirrors ? -largest : largest;
     if (largest > 0.0)
-        turn(turned, geometry->normals + 3 * v);
+        transform(cofactor, none, geometry->normals + 3 * v);
     if (!geometry->tangents)
         return;
-    turn(m, geometry->tangents + 4 * v);
+    transform(m, none, geometry->tangents + 4 * v);
     if (mirrors)
         geometry->tangents[4 * v + 3] *= -1.0f;
 }

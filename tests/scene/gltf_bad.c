@@ -222,8 +222,8 @@ static void instances_are_bounded(void **state)
 
 typedef struct heard {
     char stages[256];
-    double last;
-    bool rising;
+    double last; // in the stage heard last
+    bool rising; // from 0 to 1, never back but where a stage changes
     unsigned calls, stop_at;
 } heard;
 
@@ -233,9 +233,10 @@ static bool hear_progress(void *user, const char *stage, double fraction)
     size_t used = strlen(h->stages), length = strlen(stage);
     if (used < length || strcmp(h->stages + used - length, stage) != 0) {
         snprintf(h->stages + used, sizeof h->stages - used, " %s", stage);
-        h->last = h->last > 0.99 ? 0.0 : h->last;
+        h->last = 0.0;
     }
-    h->rising &= fraction >= 0.0 && fraction <= 1.0;
+    h->rising &= fraction >= h->last && fraction <= 1.0;
+    h->last = fraction;
     return ++h->calls != h->stop_at;
 }
 

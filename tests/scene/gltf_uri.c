@@ -149,6 +149,54 @@ static void short_files(void **state)
     fails(k, AG_ERROR_FORMAT, "buffers[0].byteLength: 36 bytes, but there are only 35", "data.bin");
 }
 
+static const char *with_image(const char *image)
+{
+    return kit_json("{'asset':{'version':'2.0'},'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],"
+                    "'buffers':[{'byteLength':36,'uri':'data.bin'}],"
+                    "'bufferViews':[{'buffer':0,'byteLength':36}],"
+                    "'accessors':[{'bufferView':0,'componentType':5126,'type':'VEC3','count':3}],"
+                    "'images':[{'uri':'unused.png'},{'uri':'pixel.png'},{'uri':'%s'}],"
+                    "'textures':[{'source':1},{'source':2}],"
+                    "'materials':[{'normalTexture':{'index':0},'emissiveTexture':{'index':1}}],"
+                    "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}]}",
+                    image);
+}
+
+static ag_status load_image(kit *k, const char *uri)
+{
+    char path[1024];
+    kit_write_text(k, "model.gltf", with_image(uri));
+    snprintf(path, sizeof path, "%s", kit_path(k, "model.gltf"));
+    return kit_load_path(k, path, NULL);
+}
+
+static void images(void **state)
+{
+    kit *k = *state;
+    const uint8_t pixel[4] = { 1, 2, 3, 255 };
+    const ag_image_desc desc = { 1, 1, AG_FORMAT_RGBA8, pixel };
+    ag_image *image;
+    assert_int_equal(ag_image_create(NULL, &desc, &image), AG_OK);
+    assert_int_equal(ag_image_save(NULL, image, kit_path(k, "pixel.png"), NULL), AG_OK);
+    ag_image_destroy(image);
+    kit_write(k, "data.bin", kit_triangle, 36);
+    assert_int_equal(load_image(k, "./pixel.png"), AG_OK);
+    assert_int_equal(k->scene->images_count, 2);
+    assert_memory_equal(ag_image_pixels(k->scene->images[1]), pixel, 4);
+    assert_int_equal(load_image(k, "pixel.png"), AG_OK);
+    assert_int_equal(k->scene->images_count, 1); // one file
+    assert_int_equal(load_image(k, "no.png"), AG_ERROR_FILE);
+    assert_int_equal(k->errors, 1);
+    assert_non_null(strstr(k->said, "model.gltf: images[2]: \"no.png\" cannot be opened"));
+    assert_int_equal(load_image(k, "../pixel.png"), AG_ERROR_FORMAT);
+    assert_non_null(strstr(k->said, "model.gltf: images[2]: \"../pixel.png\" climbs out"));
+    kit_write(k, "short.png", "\x89PNG\r\n\x1a\n", 8);
+    assert_int_not_equal(load_image(k, "short.png"), AG_OK);
+    assert_int_equal(k->errors, 1);
+    assert_non_null(strstr(k->said, "model.gltf: images[2]"));
+    assert_int_equal(k->scene->images_count + k->scene->textures_count, 0);
+}
+
 static void missing_model(void **state)
 {
     kit *k = *state;
@@ -164,7 +212,7 @@ int main(void)
         cmocka_unit_test(files),         cmocka_unit_test(relative_paths),
         cmocka_unit_test(forbidden),     cmocka_unit_test(links),
         cmocka_unit_test(data_uris),     cmocka_unit_test(short_files),
-        cmocka_unit_test(missing_model),
+        cmocka_unit_test(missing_model), cmocka_unit_test(images),
     };
     return cmocka_run_group_tests(tests, kit_setup, kit_teardown);
 }
