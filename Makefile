@@ -49,6 +49,7 @@ format: ## lay out all C with clang-format
 
 install: build ## install below PREFIX (/usr/local); DESTDIR is honoured
 	@cmake --install build/release --prefix '$(PREFIX)'
+	@test -n '$(DESTDIR)' || test "$$(id -u)" -ne 0 || ldconfig # the loader finds it
 
 clean: ## remove build/ and out/
 	@rm -rf build out
