@@ -262,6 +262,38 @@ static void occlusion_has_its_ends(void **state)
     assert_near((double)environment_dominant(n, r, 1.0f)[1], 1.0, 1e-6);
 }
 
+// The mean direction of the light that a rough mirror sends to the eye, over visible
+// normals: their weight is G2 / G1.
+static void dominant_direction_is_the_mean(void **state)
+{
+    (void)state;
+    enum { COUNT = 4096 };
+    double squares = 0.0;
+    int cells = 0;
+    vec3 n = vec3(0.0f, 0.0f, 1.0f);
+    for (float roughness = 0.1f; roughness < 1.0f; roughness += 0.1f) {
+        for (float NoV = 0.05f; NoV < 1.0f; NoV += 0.1f) {
+            float alpha = roughness * roughness, a2 = alpha * alpha;
+            vec3 wo = vec3(sqrtf(1.0f - NoV * NoV), 0.0f, NoV), mean = vec3(0.0f, 0.0f, 0.0f);
+            for (uint i = 0; i < COUNT; i++) {
+                vec2 u = sampling_hammersley(i, COUNT);
+                vec3 wi = reflect(-wo, sampling_visible_normal(wo, alpha, u));
+                if (wi[2] <= 0.0f)
+                    continue;
+                float v = microfacet_v(NoV, wi[2], a2);
+                mean += wi * (4.0f * NoV * wi[2] * v / microfacet_g1(NoV, a2));
+            }
+            vec3 d = environment_dominant(n, reflect(-wo, n), alpha);
+            double angle = atan2((double)-mean[0], (double)mean[2]) -
+                           atan2((double)-d[0], (double)d[2]);
+            assert_near(angle, 0.0, 0.1);
+            squares += angle * angle;
+            cells++;
+        }
+    }
+    assert_true(sqrt(squares / cells) < 0.03);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -277,6 +309,7 @@ int main(void)
         cmocka_unit_test(cube_faces_lie_as_vulkan_s),
         cmocka_unit_test(mips_and_roughness_invert),
         cmocka_unit_test(occlusion_has_its_ends),
+        cmocka_unit_test(dominant_direction_is_the_mean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
