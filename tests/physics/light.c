@@ -48,7 +48,8 @@ static void metals_reflect_as_measured(void **state)
         float n = m->n[i % 3], k = m->k[i % 3];
         assert_near((double)fresnel_f0_conductor(n, k), (double)m->f0[i % 3], 1e-6);
         for (int step = 0; step <= 20; step++) {
-            double c = step / 20.0, expected = reflectance((double)n + (double)k * _Complex_I, c);
+            double c = step / 20.0,
+                   expected = reflectance((double)n + (double)k * (double complex)_Complex_I, c);
             assert_near((double)fresnel_conductor((float)c, n, k), expected, 2e-6);
         }
     }
