@@ -58,7 +58,7 @@ bad "THETA,PHI,RADIUS" --orbit 1,2,3,4
 bad "THETA,PHI,RADIUS" --orbit 1,,3
 bad "THETA,PHI,RADIUS" --orbit 1,nan,3
 bad "PHI outside" --orbit 0,181,1
-bad "not above 0 metres" --orbit 0,90,0
+bad "RADIUS below 0 metres" --orbit 0,90,-1
 bad "X,Y,Z in metres" --target 1,2
 bad "X,Y,Z in metres" --target 1,2,1e40
 bad "not one of none, reinhard, aces, aces-narkowicz, neutral or agx" --tonemap filmic

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Is no line above 100 columns and no .c file above 800 lines?  Data is exempt.
+# Is no line above 100 columns and no .c file above 800 lines?  Data is exempt, and rows of
+# tables in Markdown, which cannot be broken.
 #
 #   lines.sh ROOT
 set -eu
@@ -12,7 +13,7 @@ if ! tracked Makefile >/dev/null 2>&1; then
     exit 77
 fi
 long=$(LC_ALL=C.UTF-8 git -c safe.directory='*' grep -InE '.{101,}' -- . ':!*.gltf' ':!*.json' \
-    ':!*corpus*' | cut -c1-80)
+    ':!*corpus*' | grep -vE '^[^:]*\.md:[0-9]+:\|' | cut -c1-80)
 [ -z "$long" ] || { printf 'above 100 columns:\n%s\n' "$long"; exit 1; }
 
 big=$(tracked '*.c' | xargs wc -l | awk '$2 != "total" && $1 > 800 { print $2 " has " $1 }')
