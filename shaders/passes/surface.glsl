@@ -50,12 +50,23 @@ bool has(int t)
 
 #define SAMPLE(map, t, otherwise) (has(t) ? texture(map, uv_of(uint(t))) : (otherwise))
 
+// A normal map's x and y, from the directions of its own uv to those of the tangents, which
+// follow the mesh's uv: a transform of the texture turns the one against the other.
+vec2 turned(vec2 m)
+{
+    if (GENERAL_UV == 0u)
+        return m;
+    vec2 u = normalize(material.uv_u[GPU_TEXTURE_NORMAL].xy);
+    vec2 v = normalize(material.uv_v[GPU_TEXTURE_NORMAL].xy);
+    return vec2(m.x * u.x - m.y * v.x, m.y * v.y - m.x * u.y);
+}
+
 vec3 shading_normal()
 {
     vec3 n = in_normal;
     if (has(GPU_TEXTURE_NORMAL)) {
         vec3 m = texture(normal_texture, uv_of(GPU_TEXTURE_NORMAL)).xyz * 2.0 - 1.0;
-        m.xy *= material.normal_scale;
+        m.xy = turned(m.xy) * material.normal_scale;
         // As MikkTSpace bakes: the interpolated vectors are not normalised first.
         vec3 bitangent = in_tangent.w * cross(n, in_tangent.xyz);
         n = m.x * in_tangent.xyz + m.y * bitangent + m.z * n;
