@@ -106,6 +106,13 @@ typedef struct ag_render_stats {
     bool environment_cached; // found on disk, not baked
 } ag_render_stats;
 
+// Put a scene's meshes and textures on the device ahead of the first picture, and free its
+// images in host memory as they arrive: for programs that need each scene once, this saves
+// their size at the peak.  From then on only this renderer can draw the scene, and only as
+// long as it is not changed and no other scene was drawn in between; AG_ERROR_ARGUMENT
+// otherwise.  `upload_ms`, what it took, may be NULL.
+AG_CHECK ag_status ag_renderer_take(ag_renderer *renderer, ag_scene *scene, double *upload_ms);
+
 // Make a picture.  Meshes, textures and the environment are kept on the device until a
 // different scene, or a changed one, is rendered; the scene is not needed afterwards.
 // `camera` NULL -> ag_scene_frame's automatic view.  `stats` may be NULL.

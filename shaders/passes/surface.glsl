@@ -65,8 +65,8 @@ vec3 shading_normal()
 {
     vec3 n = in_normal;
     if (has(GPU_TEXTURE_NORMAL)) {
-        vec3 m = texture(normal_texture, uv_of(GPU_TEXTURE_NORMAL)).xyz * 2.0 - 1.0;
-        m.xy = turned(m.xy) * material.normal_scale;
+        vec2 xy = texture(normal_texture, uv_of(GPU_TEXTURE_NORMAL)).xy * 2.0 - 1.0;
+        vec3 m = vec3(turned(xy) * material.normal_scale, sqrt(max(1.0 - dot(xy, xy), 0.0)));
         // As MikkTSpace bakes: the interpolated vectors are not normalised first.
         vec3 bitangent = in_tangent.w * cross(n, in_tangent.xyz);
         n = m.x * in_tangent.xyz + m.y * bitangent + m.z * n;

@@ -93,7 +93,9 @@ static ag_status prepare(work *w)
     ag_status opened = task_join(&w->opening, &w->console);
     w->report.device_ms = w->opening.ms;
     w->report.environment_ms = w->reading.ms;
-    return loaded ? loaded : read ? read : opened ? opened : set_environment(w);
+    ag_status status = loaded ? loaded : read ? read : opened ? opened : set_environment(w);
+    // The scene is drawn once: its images need not be in memory twice.
+    return status ? status : ag_renderer_take(w->renderer, w->scene, &w->report.take_ms);
 }
 
 // The camera of this name, else of this index.

@@ -31,7 +31,7 @@ static void print_stages(json *j, const render_report *r)
     json_real(j, "environment", r->environment_ms);
     json_real(j, "bake", r->stats.bake_ms);
     json_real(j, "compile", r->stats.compile_ms);
-    json_real(j, "upload", r->stats.upload_ms);
+    json_real(j, "upload", r->take_ms + r->stats.upload_ms);
     json_real(j, "frame", r->stats.frame_ms);
     json_real(j, "readback", r->stats.readback_ms);
     json_real(j, "encode", r->encode_ms);

@@ -10,6 +10,7 @@ typedef struct render_report {
     ag_render_stats stats;
     double device_ms;      // opening it, beside the loading
     double environment_ms; // reading its file, beside the loading
+    double take_ms;        // putting the scene on the device
     double encode_ms;
     double total_ms; // from the start of the process's work to the finished file
     uint32_t validation_messages;

@@ -70,7 +70,7 @@ static void filter_init_sums(filter *f)
 static void filter_init(filter *f, image_mip_kind kind)
 {
     f->kind = kind;
-    if (kind == IMAGE_MIP_SRGB) {
+    if (kind == IMAGE_MIP_SRGB || kind == IMAGE_MIP_SRGB_OPAQUE) {
         srgb_decoder_init(f->decoded);
         srgb_encoder_init(&f->encoder);
         filter_init_sums(f);
@@ -119,6 +119,11 @@ static void filter_texel(const filter *f, const uint8_t *in, size_t stride, cons
         out[c] = byte_of(sum[c]);
     for (int c = 0; c < 3 && f->kind == IMAGE_MIP_SRGB; c++)
         out[c] = srgb_encode(&f->encoder, alpha > 0 ? by_alpha[c] / alpha : sum[c]);
+    if (f->kind == IMAGE_MIP_SRGB_OPAQUE) {
+        for (int c = 0; c < 3; c++)
+            out[c] = srgb_encode(&f->encoder, sum[c]);
+        out[3] = 255;
+    }
 }
 
 static void filter_general(const filter *f, const uint8_t *in, uint32_t width, uint32_t height,
@@ -186,7 +191,8 @@ static void srgb_row_by_alpha(const filter *f, const uint8_t *a, const uint8_t *
 static void srgb_row(const filter *f, const uint8_t *a, const uint8_t *b, uint32_t count,
                      uint8_t *restrict out)
 {
-    if (!row_is_opaque(a, 2 * count) || !row_is_opaque(b, 2 * count)) {
+    bool by_alpha = f->kind == IMAGE_MIP_SRGB;
+    if (by_alpha && (!row_is_opaque(a, 2 * count) || !row_is_opaque(b, 2 * count))) {
         srgb_row_by_alpha(f, a, b, count, out);
         return;
     }
@@ -240,7 +246,7 @@ static void filter_even(const filter *f, const uint8_t *in, uint32_t width, uint
     size_t stride = (size_t)width * 4;
     uint32_t count = width / 2;
     for (uint32_t y = 0; y < height / 2; y++, in += 2 * stride, out += (size_t)count * 4) {
-        if (f->kind == IMAGE_MIP_SRGB)
+        if (f->kind == IMAGE_MIP_SRGB || f->kind == IMAGE_MIP_SRGB_OPAQUE)
             srgb_row(f, in, in + stride, count, out);
         else if (f->kind == IMAGE_MIP_NORMAL)
             normal_row(in, in + stride, count, out);

@@ -122,7 +122,7 @@ static ag_status fill_set(gpu_device *device, const ag_scene *scene, textures *t
         VkImageView view;
         VkSampler sampler;
         ag_status status = textures_bind(device, t, scene, textures_use(desc, slot),
-                                         textures_kind(slot), &view, &sampler);
+                                         textures_kind(desc, slot), &view, &sampler);
         if (status)
             return status;
         bindings_write_image(device, m->sets[index], 1 + slot, view, sampler);

@@ -172,7 +172,9 @@ static ag_status prepare(ag_renderer *r, const picture *p, ag_render_stats *stat
         .sum = p->frames > 1,
         .format = o->format,
     };
-    ag_status status = resident_ensure(r, p->scene, p->background, stats);
+    ag_status status = resident_things(r, p->scene, false, &stats->upload_ms);
+    if (!status)
+        status = resident_surround(r, p->scene, p->background, stats);
     if (!status)
         status = targets_ensure(r->device, &desc, &r->targets);
     if (!status)
@@ -245,6 +247,15 @@ static ag_status render(ag_renderer *r, const picture *p, ag_image **out, ag_ren
     else
         *out = image;
     return status;
+}
+
+ag_status ag_renderer_take(ag_renderer *r, ag_scene *scene, double *upload_ms)
+{
+    double unwanted;
+    if (!upload_ms)
+        upload_ms = &unwanted;
+    *upload_ms = 0;
+    return resident_things(r, scene, true, upload_ms);
 }
 
 ag_status ag_renderer_render(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,

@@ -13,7 +13,8 @@
 
 // What of a scene is on the device.
 typedef struct resident {
-    uint64_t scene, revision, environment_revision; // what it was made from
+    uint64_t scene, revision; // what the things were made from; 0 = nothing
+    uint64_t surrounded, environment_revision; // what the surround was made from
     geometry geometry;
     textures textures;
     materials materials;
@@ -33,9 +34,14 @@ struct ag_renderer {
     gpu_commands commands;
 };
 
-// Have `scene` on the device: what is there and unchanged is kept.
-AG_CHECK ag_status resident_ensure(ag_renderer *renderer, const ag_scene *scene,
-                                   bool background_wanted, ag_render_stats *stats);
+// Have the scene's things on the device: what is there and unchanged is kept.  `release`:
+// give the scene's pixels back as they are uploaded.
+AG_CHECK ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool release,
+                                   double *upload_ms);
+
+// Have what surrounds the scene on the device; `shown`: also as a picture.
+AG_CHECK ag_status resident_surround(ag_renderer *renderer, const ag_scene *scene, bool shown,
+                                     ag_render_stats *stats);
 void resident_destroy(gpu_device *device, resident *r); // zero is allowed
 
 #endif

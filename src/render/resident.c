@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "image/image.h"
 #include "physics/light_punctual.glsl"
 
 #include <math.h>
@@ -47,14 +48,27 @@ static void destroy_things(gpu_device *device, resident *r)
     r->scene = 0;
 }
 
-static ag_status make_things(ag_renderer *renderer, const ag_scene *scene, gpu_upload *upload)
+static bool released(const ag_scene *scene)
+{
+    for (size_t i = 0; i < scene->images_count; i++)
+        if (!scene->images[i]->pixels)
+            return true;
+    return false;
+}
+
+static ag_status make_things(ag_renderer *renderer, const ag_scene *scene, bool release,
+                             gpu_upload *upload)
 {
     gpu_device *device = renderer->device;
     resident *r = &renderer->resident;
     destroy_things(device, r);
+    if (released(scene))
+        return log_fail(&device->log, AG_ERROR_ARGUMENT,
+                        "the scene's images were released when another renderer took them or "
+                        "before it was changed; load it again");
     ag_status status = geometry_create(device, scene, upload, &r->geometry);
     if (!status)
-        status = textures_create(device, scene, upload, &r->textures);
+        status = textures_create(device, scene, release, upload, &r->textures);
     if (!status)
         status =
             materials_create(device, &renderer->bindings, scene, &r->textures, &r->materials);
@@ -65,7 +79,29 @@ static ag_status make_things(ag_renderer *renderer, const ag_scene *scene, gpu_u
     return status;
 }
 
-static ag_status make_surround(ag_renderer *renderer, const ag_scene *scene, bool background,
+ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool release,
+                          double *upload_ms)
+{
+    resident *r = &renderer->resident;
+    if (r->scene == scene->id && r->revision == scene->revision)
+        return AG_OK;
+    double start = clock_ms();
+    gpu_upload upload;
+    ag_status status = gpu_upload_begin(renderer->device, &upload);
+    if (!status)
+        status = make_things(renderer, scene, release, &upload);
+    if (!status)
+        status = gpu_upload_end(&upload);
+    gpu_upload_finish(&upload);
+    *upload_ms += clock_ms() - start;
+    if (status)
+        return status;
+    r->scene = scene->id;
+    r->revision = scene->revision;
+    return AG_OK;
+}
+
+static ag_status make_surround(ag_renderer *renderer, const ag_scene *scene, bool shown,
                                gpu_upload *upload, ag_render_stats *stats)
 {
     const ag_image *equirect;
@@ -75,7 +111,7 @@ static ag_status make_surround(ag_renderer *renderer, const ag_scene *scene, boo
     double opened = clock_ms() - start;
     if (status)
         return status;
-    status = surround_create(renderer->device, equirect, background, upload,
+    status = surround_create(renderer->device, equirect, shown, upload,
                              &stats->environment_cached, &stats->bake_ms,
                              &renderer->resident.surround);
     stats->bake_ms += opened;
@@ -83,32 +119,27 @@ static ag_status make_surround(ag_renderer *renderer, const ag_scene *scene, boo
     return status;
 }
 
-ag_status resident_ensure(ag_renderer *renderer, const ag_scene *scene, bool background_wanted,
-                          ag_render_stats *stats)
+ag_status resident_surround(ag_renderer *renderer, const ag_scene *scene, bool shown,
+                            ag_render_stats *stats)
 {
     resident *r = &renderer->resident;
-    bool other = r->scene != scene->id;
-    bool things = other || r->revision != scene->revision;
-    bool around = other || !r->surround.dfg.image ||
-                  r->environment_revision != scene->environment_revision ||
-                  (background_wanted && r->surround.present && !r->surround.image_wanted);
-    if (!things && !around)
+    bool picture_missing = shown && r->surround.present && !r->surround.image_wanted;
+    if (r->surrounded == scene->id && r->environment_revision == scene->environment_revision &&
+        !picture_missing)
         return AG_OK;
     double start = clock_ms();
     gpu_upload upload;
     ag_status status = gpu_upload_begin(renderer->device, &upload);
-    if (!status && things)
-        status = make_things(renderer, scene, &upload);
-    if (!status && around)
-        status = make_surround(renderer, scene, background_wanted, &upload, stats);
+    r->surrounded = 0;
+    if (!status)
+        status = make_surround(renderer, scene, shown, &upload, stats);
     if (!status)
         status = gpu_upload_end(&upload);
     gpu_upload_finish(&upload);
-    stats->upload_ms = clock_ms() - start - stats->bake_ms;
+    stats->upload_ms += clock_ms() - start - stats->bake_ms;
     if (status)
         return status;
-    r->scene = scene->id;
-    r->revision = scene->revision;
+    r->surrounded = scene->id;
     r->environment_revision = scene->environment_revision;
     return AG_OK;
 }

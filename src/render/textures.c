@@ -3,21 +3,22 @@
 
 #include "base/array.h"
 #include "base/log.h"
-#include "base/threads.h"
-#include "image/image.h"
-#include "image/mip.h"
+#include "render/texture_jobs.h"
+
 #include "interop/scene.glsl"
 
 #include <stdlib.h>
 
-texture_kind textures_kind(uint32_t slot)
+texture_kind textures_kind(const ag_material_desc *material, uint32_t slot)
 {
     switch (slot) {
     case GPU_TEXTURE_BASE_COLOR:
-    case GPU_TEXTURE_EMISSIVE:
-    case GPU_TEXTURE_SPECULAR_COLOR: return TEXTURE_COLOR;
+        return material->alpha_mode == AG_ALPHA_OPAQUE ? TEXTURE_COLOR : TEXTURE_COLOR_ALPHA;
+    case GPU_TEXTURE_METALLIC_ROUGHNESS: return TEXTURE_ROUGHNESS_METALLIC;
     case GPU_TEXTURE_NORMAL: return TEXTURE_NORMAL;
-    default: return TEXTURE_DATA;
+    case GPU_TEXTURE_OCCLUSION: return TEXTURE_OCCLUSION;
+    case GPU_TEXTURE_SPECULAR: return TEXTURE_SPECULAR;
+    default: return TEXTURE_COLOR;
     }
 }
 
@@ -73,96 +74,39 @@ static ag_status index_images(const ag_scene *scene, textures *t)
 
 // ---- Uploads -----------------------------------------------------------------
 
-typedef struct upload_job {
-    const ag_image *image;
-    gpu_image *target;
-    texture_kind kind;
-    void *mips; // levels 1 and below, one after another; made on worker threads
-} upload_job;
-
-static void make_mips(void *context, size_t index)
+// One job for every image and every way that some material reads it.
+static size_t list_jobs(const ag_scene *scene, textures *t, texture_job *jobs, bool *seen)
 {
-    static const image_mip_kind kinds[] = {
-        [TEXTURE_COLOR] = IMAGE_MIP_SRGB,
-        [TEXTURE_DATA] = IMAGE_MIP_LINEAR,
-        [TEXTURE_NORMAL] = IMAGE_MIP_NORMAL,
-    };
-    upload_job *job = (upload_job *)context + index;
-    job->mips = image_mips(job->image, kinds[job->kind]);
-}
-
-static ag_status upload_one(gpu_device *device, gpu_upload *upload, const upload_job *job)
-{
-    const ag_image *image = job->image;
-    const gpu_image_desc desc = {
-        .format =
-            job->kind == TEXTURE_COLOR ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
-        .width = image->width,
-        .height = image->height,
-        .mips = image_mip_count(image->width, image->height),
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-    };
-    if (!job->mips)
-        return log_fail(&device->log, AG_ERROR_MEMORY, "no memory for the mips of a %ux%u texture",
-                        image->width, image->height);
-    if (image->width > device->info.max_size || image->height > device->info.max_size)
-        return log_fail(&device->log, AG_ERROR_UNSUPPORTED,
-                        "a texture of %ux%u pixels is more than the %u of %s", image->width,
-                        image->height, device->info.max_size, device->info.name);
-    ag_status status = gpu_image_create(device, &desc, job->target);
-    if (status)
-        return status;
-    gpu_upload_image_begin(upload, job->target);
-    status = gpu_upload_image_level(upload, job->target, 0, 0, 4, image->pixels);
-    for (uint32_t mip = 1; mip < desc.mips && !status; mip++) {
-        size_t offset = image_mip_offset(image->width, image->height, mip);
-        status = gpu_upload_image_level(upload, job->target, mip, 0, 4, (char *)job->mips + offset);
-    }
-    gpu_upload_image_end(upload, job->target);
-    return status;
-}
-
-// Mips of a few images at a time, on all cores, then into the device.
-static ag_status upload_all(gpu_device *device, gpu_upload *upload, upload_job *jobs, size_t count)
-{
-    size_t batch = threads_available();
-    ag_status status = AG_OK;
-    for (size_t i = 0; i < count && !status; i += batch) {
-        size_t n = count - i < batch ? count - i : batch;
-        parallel_for(n, make_mips, jobs + i);
-        for (size_t k = i; k < i + n; k++) {
-            if (!status)
-                status = upload_one(device, upload, &jobs[k]);
-            free(jobs[k].mips);
-        }
-    }
-    return status;
-}
-
-static ag_status upload_used(gpu_device *device, const ag_scene *scene, gpu_upload *upload,
-                             textures *t)
-{
-    upload_job *jobs = calloc(t->image_count * TEXTURE_KINDS + 1, sizeof *jobs);
-    bool *seen = calloc(t->image_count * TEXTURE_KINDS + 1, sizeof *seen);
     size_t count = 0;
+    for (size_t m = 0; m < scene->materials_count; m++)
+        for (uint32_t slot = 0; slot < GPU_TEXTURE_COUNT; slot++) {
+            const ag_material_desc *material = &scene->materials[m];
+            uint32_t id = textures_use(material, slot)->texture.id;
+            if (!id)
+                continue;
+            texture_kind kind = textures_kind(material, slot);
+            size_t place = t->image_of[id - 1] * (size_t)TEXTURE_KINDS + kind;
+            if (!seen[place])
+                jobs[count++] = (texture_job) { .image = scene->textures[id - 1].image,
+                                                .target = &t->images[place],
+                                                .kind = kind };
+            seen[place] = true;
+        }
+    return count;
+}
+
+static ag_status upload_used(gpu_device *device, const ag_scene *scene, bool release,
+                             gpu_upload *upload, textures *t)
+{
+    texture_job *jobs = calloc(t->image_count * TEXTURE_KINDS + 1, sizeof *jobs);
+    bool *seen = calloc(t->image_count * TEXTURE_KINDS + 1, sizeof *seen);
     ag_status status = AG_OK;
     if (!jobs || !seen)
         status = log_fail(&device->log, AG_ERROR_MEMORY, "no memory to upload textures");
-    for (size_t m = 0; m < scene->materials_count && !status; m++)
-        for (uint32_t slot = 0; slot < GPU_TEXTURE_COUNT; slot++) {
-            uint32_t id = textures_use(&scene->materials[m], slot)->texture.id;
-            if (!id)
-                continue;
-            texture_kind kind = textures_kind(slot);
-            size_t place = t->image_of[id - 1] * (size_t)TEXTURE_KINDS + kind;
-            if (seen[place])
-                continue;
-            seen[place] = true;
-            jobs[count++] =
-                (upload_job) { scene->textures[id - 1].image, &t->images[place], kind, NULL };
-        }
-    if (!status)
-        status = upload_all(device, upload, jobs, count);
+    if (!status) {
+        size_t count = list_jobs(scene, t, jobs, seen);
+        status = texture_jobs_run(device, upload, release, jobs, count);
+    }
     free(jobs);
     free(seen);
     return status;
@@ -186,15 +130,15 @@ static ag_status upload_white(gpu_device *device, gpu_upload *upload, textures *
     return status;
 }
 
-ag_status textures_create(gpu_device *device, const ag_scene *scene, gpu_upload *upload,
-                          textures *t)
+ag_status textures_create(gpu_device *device, const ag_scene *scene, bool release,
+                          gpu_upload *upload, textures *t)
 {
     *t = (textures) { 0 };
     ag_status status = index_images(scene, t);
     if (!status)
         status = upload_white(device, upload, t);
     if (!status)
-        status = upload_used(device, scene, upload, t);
+        status = upload_used(device, scene, release, upload, t);
     if (status)
         textures_destroy(device, t);
     return status;

@@ -1,7 +1,7 @@
 // The textures of a scene on the device.
 //
-// An image is uploaded once for each way of reading it: as colours, as data or as
-// normals, which differ in their format and in how their mips are made.
+// An image is uploaded once for each way of reading it: the ways differ in how mips are
+// made and in the channels that are worth keeping.
 #ifndef AG_RENDER_TEXTURES_H
 #define AG_RENDER_TEXTURES_H
 
@@ -9,9 +9,12 @@
 #include "scene/scene.h"
 
 typedef enum texture_kind {
-    TEXTURE_COLOR, // sRGB-coded
-    TEXTURE_DATA,
-    TEXTURE_NORMAL,
+    TEXTURE_COLOR,       // sRGB-coded; alpha means nothing
+    TEXTURE_COLOR_ALPHA, // sRGB-coded, with alpha
+    TEXTURE_ROUGHNESS_METALLIC, // G, B
+    TEXTURE_NORMAL,             // R, G; the third follows from the length
+    TEXTURE_OCCLUSION,          // R
+    TEXTURE_SPECULAR,           // A
     TEXTURE_KINDS,
 } texture_kind;
 
@@ -26,14 +29,15 @@ typedef struct textures {
     gpu_image white; // stands in for a texture that is not there
 } textures;
 
-AG_CHECK ag_status textures_create(gpu_device *device, const ag_scene *scene, gpu_upload *upload,
-                                   textures *t);
+// `release`: give an image's pixels in host memory back as soon as it is uploaded.
+AG_CHECK ag_status textures_create(gpu_device *device, const ag_scene *scene, bool release,
+                                   gpu_upload *upload, textures *t);
 void textures_destroy(gpu_device *device, textures *t); // zero is allowed
 
-// The kind of a material's texture (GPU_TEXTURE_).
-texture_kind textures_kind(uint32_t slot);
+// The way that a material reads texture `slot` (GPU_TEXTURE_).
+texture_kind textures_kind(const ag_material_desc *material, uint32_t slot);
 
-// The use that a material makes of texture `slot` (GPU_TEXTURE_).
+// The use that a material makes of texture `slot`.
 const ag_texture_use *textures_use(const ag_material_desc *material, uint32_t slot);
 
 // What to bind for it; the white image where the material has none.

@@ -12,6 +12,11 @@ static double overlap(int n, int m, int i, int o)
     return right > left ? (right - left) * m / n : 0;
 }
 
+static bool is_srgb(image_mip_kind kind)
+{
+    return kind == IMAGE_MIP_SRGB || kind == IMAGE_MIP_SRGB_OPAQUE;
+}
+
 static double decode(image_mip_kind kind, int v)
 {
     double c = v / 255.0;
@@ -41,13 +46,13 @@ static void reference(image_mip_kind kind, const uint8_t *in, int w, int h, int 
         length += plain[c] * plain[c];
     for (int c = 0; c < 3; c++) {
         double v = kind == IMAGE_MIP_SRGB && alpha > 0 ? weighted[c] / alpha : plain[c];
-        if (kind == IMAGE_MIP_SRGB)
+        if (is_srgb(kind))
             v = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
         if (kind == IMAGE_MIP_NORMAL)
             v = (v / sqrt(length) + 1) / 2;
         out[c] = 255 * v;
     }
-    out[3] = 255 * alpha;
+    out[3] = kind == IMAGE_MIP_SRGB_OPAQUE ? 255 : 255 * alpha;
 }
 
 static void check_level(image_mip_kind kind, const uint8_t *in, int w, int h, const uint8_t *level,
@@ -59,7 +64,7 @@ static void check_level(image_mip_kind kind, const uint8_t *in, int w, int h, co
             reference(kind, in, w, h, ow, oh, x, y, exact);
             const uint8_t *p = level + ((size_t)y * (size_t)ow + (size_t)x) * 4;
             for (int c = 0; c < 4; c++) // rounded, but for what the table of sums leaves open
-                assert_close(p[c], exact[c], kind == IMAGE_MIP_SRGB && c < 3 ? 0.58 : 0.501);
+                assert_close(p[c], exact[c], is_srgb(kind) && c < 3 ? 0.58 : 0.501);
         }
 }
 
@@ -106,7 +111,7 @@ static void test_chains(void **state)
                                     { 16, 1 }, { 1, 16 }, { 31, 31 }, { 33, 20 },
                                     { 3, 2 },  { 47, 1 }, { 28, 23 }, { 40, 40 } };
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-        for (int kind = 0; kind < 3; kind++)
+        for (int kind = 0; kind <= IMAGE_MIP_NORMAL; kind++)
             for (int opaque = 0; opaque < 2; opaque++)
                 check_chain((image_mip_kind)kind, sizes[i][0], sizes[i][1], opaque);
 }
@@ -149,6 +154,9 @@ static void test_known_texels(void **state)
     static const uint8_t leaf[16] = { 200, 0, 0, 255, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0 };
     one_level(leaf, IMAGE_MIP_SRGB, out);
     assert_memory_equal(out, ((const uint8_t[]) { 200, 0, 0, 64 }), 4);
+    // unless alpha means nothing
+    one_level(leaf, IMAGE_MIP_SRGB_OPAQUE, out);
+    assert_memory_equal(out, ((const uint8_t[]) { 104, 225, 0, 255 }), 4);
     // wholly transparent: the colours' own mean
     static const uint8_t clear[16] = { 90, 9, 0, 0, 90, 9, 0, 0, 90, 9, 0, 0, 90, 9, 0, 0 };
     one_level(clear, IMAGE_MIP_SRGB, out);
