@@ -2,7 +2,7 @@
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: help render build test sanitize clang bench format install clean
+.PHONY: help render build test sanitize clang bench accuracy format install clean
 
 help: ## what can be made (the default)
 	@echo "Argand: a physically based real-time renderer."
@@ -42,6 +42,12 @@ bench: ## build and run the benchmarks
 	@cmake --build build/bench -j $(JOBS)
 	@for program in build/bench/bench/bench_*; do \
 	    if test -x "$$program"; then echo "$$program"; "$$program" || exit 1; fi; done
+
+accuracy: ## print the sphere light's error against quadrature
+	@scripts/packages.sh build run test
+	@test -f build/bench/build.ninja || cmake --preset release -B build/bench -DARGAND_BENCH=ON
+	@cmake --build build/bench -j $(JOBS) --target accuracy
+	@build/bench/bench/accuracy && build/bench/bench/accuracy 10 0.6
 
 format: ## lay out all C with clang-format
 	@scripts/packages.sh format
