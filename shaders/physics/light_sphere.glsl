@@ -59,8 +59,8 @@ STRUCT(light_lens) {
     vec3 metric; // along^2, along.across, across^2 before the stretch
     real length_v;
     real width;  // the slices stand at sigma = 0, +-width
-    real low[3]; // their ends in tau
-    real high[3];
+    vec3 low;    // their ends in tau, for sigma = -width, 0, width
+    vec3 high;
     real scale;
 };
 
@@ -210,6 +210,57 @@ static inline vec2 light_cone_rim(light_cone cone, real cos_t, real sin_t)
     return vec2(z1, z2) / sqrt(max(z1 * z1 + z2 * z2, LIGHT_TINY));
 }
 
+// Where rim and horizon meet on the unit disc: at the angles +-gamma from the unit vector d.
+// Returns d, cos(gamma), sin(gamma); gamma = pi for a light wholly up, d then points upwards.
+static inline vec4 light_cone_meeting(light_cone cone, light_cap cap)
+{
+    real h = sqrt(cap.axis[0] * cap.axis[0] + cap.axis[1] * cap.axis[1]);
+    real cos_t = clamp(-cap.axis[2] * cap.cos_s / max(cap.sin_s * h, LIGHT_TINY), -1.0f, 1.0f);
+    real sin_t = sqrt(1.0f - cos_t * cos_t);
+    vec2 p = light_cone_rim(cone, cos_t, sin_t);
+    vec2 q = light_cone_rim(cone, cos_t, -sin_t);
+    vec2 gap = 0.5f * (p - q);
+    vec2 mid = 0.5f * (p + q);
+    real sin_g = sqrt(gap[0] * gap[0] + gap[1] * gap[1]);
+    real cos_g = sqrt(mid[0] * mid[0] + mid[1] * mid[1]);
+    real turn = q[0] * p[1] - q[1] * p[0]; // sin(2 gamma); fails where the points fall together
+    cos_g = (sin_g > 0.1f ? turn : cos_t) < 0.0f ? -cos_g : cos_g;
+    return vec4(p[0] * cos_g + p[1] * sin_g, p[1] * cos_g - p[0] * sin_g, cos_g, sin_g);
+}
+
+// Positive above the horizon: 2 h.z (v.h) - v.z h.h.
+static inline light_form light_form_horizon(light_lens lens)
+{
+    vec3 d = lens.along;
+    vec3 s = lens.across;
+    vec3 a = lens.axis;
+    real z = lens.v[2];
+    real vd = dot(lens.v, d);
+    real vs = dot(lens.v, s);
+    real va = dot(lens.v, a);
+    light_form f;
+    f.tt = 2.0f * d[2] * vd - z * dot(d, d);
+    f.ss = 2.0f * s[2] * vs - z * dot(s, s);
+    f.aa = 2.0f * a[2] * va - z * dot(a, a);
+    f.ts = d[2] * vs + s[2] * vd - z * dot(d, s);
+    f.ta = d[2] * va + a[2] * vd - z * dot(d, a);
+    f.sa = s[2] * va + a[2] * vs - z * dot(s, a);
+    return f;
+}
+
+// Positive within the light: 1 - tau^2 - sigma^2 less `lift` times the horizon's form.
+static inline light_form light_form_rim(vec3 metric, light_form horizon, real lift)
+{
+    light_form f;
+    f.tt = metric[0] - 1.0f - lift * horizon.tt;
+    f.ss = metric[2] - 1.0f - lift * horizon.ss;
+    f.aa = 1.0f - lift * horizon.aa;
+    f.ts = metric[1] - lift * horizon.ts;
+    f.ta = -lift * horizon.ta;
+    f.sa = -lift * horizon.sa;
+    return f;
+}
+
 // Where the line sigma = 0 crosses a form's zero, as tau: upwards (into the positive) or
 // downwards; the disc's rim where it does not cross within.
 static inline real light_form_cross(light_form f, real along2, bool upwards)
@@ -244,6 +295,20 @@ static inline real light_form_refine(light_form f, vec3 metric, real t, real s, 
     return clamp(t - clamp(step, -0.5f, 0.5f), -rim, rim);
 }
 
+// Of the form that bounds the slice there.
+static inline real light_form_end(light_form first, light_form second, bool is_first, vec3 metric,
+                                  real t, real s, real way)
+{
+    light_form f;
+    f.tt = is_first ? first.tt : second.tt;
+    f.ss = is_first ? first.ss : second.ss;
+    f.aa = is_first ? first.aa : second.aa;
+    f.ts = is_first ? first.ts : second.ts;
+    f.ta = is_first ? first.ta : second.ta;
+    f.sa = is_first ? first.sa : second.sa;
+    return light_form_refine(f, metric, t, s, way);
+}
+
 // The visible part of the light's ellipse between the horizon and the rim: both are taken for
 // circular arcs through the two points where they meet, at (tau, sigma) = (cos_g, +-sin_g), and
 // through where they cross sigma = 0, at tau = `low` and `high`; then refined.  Section 5.
@@ -275,16 +340,10 @@ static inline light_lens light_lens_slice(light_lens lens, light_form horizon, l
     // Beyond its half width an arc's other half bounds the slice on both sides.
     real t1 = on_rim ? high - rise_k * s2 / rise_c : low + sink_c / max(sink_k, 1e-6f);
     real t0 = on_horizon ? low + sink_k * s2 / sink_c : high - rise_c / max(rise_k, 1e-6f);
-    for (int i = 0; i < 3; i += 2) {
-        real si = i == 0 ? -s : s;
-        lens.low[i] = on_horizon ? light_form_refine(horizon, lens.metric, t0, si, 1.0f)
-                                 : light_form_refine(rim, lens.metric, t0, si, 1.0f);
-        lens.high[i] = on_rim ? light_form_refine(rim, lens.metric, t1, si, -1.0f)
-                              : light_form_refine(horizon, lens.metric, t1, si, -1.0f);
-        lens.high[i] = max(lens.high[i], lens.low[i]);
-    }
-    lens.low[1] = low;
-    lens.high[1] = high;
+    lens.low = vec3(light_form_end(horizon, rim, on_horizon, lens.metric, t0, -s, 1.0f), low,
+                    light_form_end(horizon, rim, on_horizon, lens.metric, t0, s, 1.0f));
+    lens.high = vec3(light_form_end(rim, horizon, on_rim, lens.metric, t1, -s, -1.0f), high,
+                     light_form_end(rim, horizon, on_rim, lens.metric, t1, s, -1.0f));
     lens.width = s;
     lens.scale *= width;
     return lens;
@@ -316,20 +375,10 @@ static inline light_lens light_lens_from_cap(light_cap cap, vec3 v, real ax, rea
     light_cone cone = light_cone_from_cap(raised, v, raised_reach, vec3(m / ax, m / ay, m),
                                           m * m * m / (ax * ay));
 
-    // The rim and the horizon meet at +-gamma from `d`.
-    real h = sqrt(raised.axis[0] * raised.axis[0] + raised.axis[1] * raised.axis[1]);
-    real cos_t = clamp(-raised.axis[2] * raised.cos_s / max(raised.sin_s * h, LIGHT_TINY),
-                       -1.0f, 1.0f);
-    real sin_t = sqrt(1.0f - cos_t * cos_t);
-    vec2 p = light_cone_rim(cone, cos_t, sin_t);
-    vec2 q = light_cone_rim(cone, cos_t, -sin_t);
-    vec2 half_gap = 0.5f * (p - q);
-    vec2 mid = 0.5f * (p + q);
-    real sin_g = sqrt(half_gap[0] * half_gap[0] + half_gap[1] * half_gap[1]);
-    real cos_g = sqrt(mid[0] * mid[0] + mid[1] * mid[1]);
-    real turn = q[0] * p[1] - q[1] * p[0]; // sin(2 gamma); fails where the points fall together
-    cos_g = (sin_g > 0.1f ? turn : cos_t) < 0.0f ? -cos_g : cos_g;
-    vec2 d = vec2(p[0] * cos_g + p[1] * sin_g, p[1] * cos_g - p[0] * sin_g);
+    vec4 meeting = light_cone_meeting(cone, raised);
+    real cos_g = meeting[2];
+    real sin_g = meeting[3];
+    vec2 d = vec2(meeting[0], meeting[1]);
 
     light_lens lens;
     vec3 qd = d[0] * cone.z1 + d[1] * cone.z2;
@@ -346,57 +395,46 @@ static inline light_lens light_lens_from_cap(light_cap cap, vec3 v, real ax, rea
     real area = min(shrink * cone.area, 1.0f / max(s2, LIGHT_TINY)); // at most the disc
     lens.scale = hidden ? 0.0f : 0.5f * INV_PI * area;
 
-    real vd = dot(v, lens.along);
-    real vs = dot(v, lens.across);
-    real va = dot(v, lens.axis);
-    light_form horizon; // 2 h.z (v.h) - v.z h.h
-    horizon.tt = 2.0f * lens.along[2] * vd - v[2] * dot(lens.along, lens.along);
-    horizon.ss = 2.0f * lens.across[2] * vs - v[2] * dot(lens.across, lens.across);
-    horizon.aa = 2.0f * lens.axis[2] * va - v[2] * dot(lens.axis, lens.axis);
-    horizon.ts = lens.along[2] * vs + lens.across[2] * vd - v[2] * dot(lens.along, lens.across);
-    horizon.ta = lens.along[2] * va + lens.axis[2] * vd - v[2] * dot(lens.along, lens.axis);
-    horizon.sa = lens.across[2] * va + lens.axis[2] * vs - v[2] * dot(lens.across, lens.axis);
-
-    // The light's, over the raised cap's value at the axis, f: the raised cap's form is
-    // f (1 - tau^2 - sigma^2), the light's is that less the lift.
+    // The raised cap's form is f (1 - tau^2 - sigma^2), the light's is that less the lift.
+    light_form horizon = light_form_horizon(lens);
     real f = m * m * raised_reach * raised.sin_s * raised.sin_s / (cone.square * inverse);
-    real g = min(lift / max(f, LIGHT_TINY), 1e15f);
-    light_form rim;
-    rim.tt = lens.metric[0] - 1.0f - g * horizon.tt;
-    rim.ss = lens.metric[2] - 1.0f - g * horizon.ss;
-    rim.aa = 1.0f - g * horizon.aa;
-    rim.ts = lens.metric[1] - g * horizon.ts;
-    rim.ta = -g * horizon.ta;
-    rim.sa = -g * horizon.sa;
+    light_form rim = light_form_rim(lens.metric, horizon, min(lift / max(f, LIGHT_TINY), 1e15f));
     return light_lens_slice(lens, horizon, rim, cos_g, sin_g);
 }
 
-static const int LIGHT_NODES = 9;
-
-// Weight and cosine v.h of the node i: the light's reflection is the sum of weight F(v.h) over
-// all nodes, times E.
-static inline vec2 light_lens_node(light_lens lens, int i)
+// Weight and cosine v.h of a node: `slice` and `place` = -1, 0, 1.  The light's reflection is the
+// sum of weight F(v.h) over all nine nodes, times E.
+static inline vec2 light_lens_node(light_lens lens, int slice, int place)
 {
-    int slice = i / 3;
-    int place = i - 3 * slice;
-    real s = lens.width * to_real(slice - 1);
-    real half_length = 0.5f * (lens.high[slice] - lens.low[slice]);
-    real t = 0.5f * (lens.high[slice] + lens.low[slice]) +
-             half_length * LIGHT_NODE * to_real(place - 1);
-    real weight = half_length * (place == 1 ? 8.0f / 9.0f : 5.0f / 9.0f) *
-                  (slice == 1 ? 1.0f : LIGHT_SLICE);
+    real low = slice < 0 ? lens.low[0] : slice > 0 ? lens.low[2] : lens.low[1];
+    real high = slice < 0 ? lens.high[0] : slice > 0 ? lens.high[2] : lens.high[1];
+    real half_length = max(0.5f * (high - low), 0.0f);
+    real t = 0.5f * (high + low) + half_length * (LIGHT_NODE * to_real(place));
+    real s = lens.width * to_real(slice);
+    real weight = half_length * (place == 0 ? 8.0f / 9.0f : 5.0f / 9.0f) *
+                  (slice == 0 ? 1.0f : LIGHT_SLICE);
     vec3 metric = lens.metric;
     real a2 = 1.0f - t * t * metric[0] - 2.0f * t * s * metric[1] - s * s * metric[2];
     real a = sqrt(max(a2, 1e-6f));
     vec3 h = t * lens.along + s * lens.across + a * lens.axis;
     real vh = max(dot(lens.v, h), 0.0f);
-    real h2 = 1.0f / dot(h, h);
+    real h1 = 1.0f / sqrt(dot(h, h));
+    real h2 = h1 * h1;
     vec3 l = (2.0f * vh * h2) * h - lens.v;
     vec3 sl = lens.stretch * l;
     real NoL = max(l[2], 0.0f);
     // G2 / G1 = (|Sv| + NoV) NoL / (|Sv| NoL + |Sl| NoV); Heitz 2014, eqs. 43, 99, 72 and 86.
-    real g = NoL / max(lens.length_v * NoL + sqrt(dot(sl, sl)) * lens.v[2], LIGHT_TINY);
-    return vec2(lens.scale * weight * vh * g / a, min(vh * sqrt(h2), 1.0f));
+    real g = NoL / max(a * (lens.length_v * NoL + sqrt(dot(sl, sl)) * lens.v[2]), LIGHT_TINY);
+    return vec2(lens.scale * weight * vh * g, min(vh * h1, 1.0f));
+}
+
+static inline vec2 light_lens_slice_sum(light_lens lens, int slice)
+{
+    vec2 a = light_lens_node(lens, slice, -1);
+    vec2 b = light_lens_node(lens, slice, 0);
+    vec2 c = light_lens_node(lens, slice, 1);
+    return vec2(a[0] + b[0] + c[0],
+                a[0] * pow5(1.0f - a[1]) + b[0] * pow5(1.0f - b[1]) + c[0] * pow5(1.0f - c[1]));
 }
 
 // The GGX lobe under the light: x without Fresnel, y with the factor (1 - v.h)^5 of Schlick's,
@@ -404,11 +442,8 @@ static inline vec2 light_lens_node(light_lens lens, int i)
 static inline vec2 light_cap_ggx(light_cap cap, vec3 v, real ax, real ay)
 {
     light_lens lens = light_lens_from_cap(cap, v, ax, ay);
-    vec2 sum = vec2(0.0f, 0.0f);
-    for (int i = 0; i < LIGHT_NODES; i++) {
-        vec2 node = light_lens_node(lens, i);
-        sum = sum + node[0] * vec2(1.0f, pow5(1.0f - node[1]));
-    }
+    vec2 sum = light_lens_slice_sum(lens, -1) + light_lens_slice_sum(lens, 0) +
+               light_lens_slice_sum(lens, 1);
     // No light is reflected brighter than it is.
     real most = INV_PI / max(cap.sin_s * cap.sin_s, LIGHT_TINY);
     return sum * min(1.0f, most / max(sum[0], LIGHT_TINY));

@@ -1,0 +1,18 @@
+// Does the sphere light's text compile for the GPU?
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "physics/light_sphere.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, set = 0, binding = 0) readonly buffer inputs { vec4 u[]; };
+layout(std430, set = 0, binding = 1) writeonly buffer outputs { vec4 y[]; };
+
+void main()
+{
+    uint i = gl_GlobalInvocationID.x;
+    light_cap cap = light_cap_sphere(u[2 * i].xyz, u[2 * i].w);
+    light_cap sun = light_cap_sun(cap.axis, cap.sin_s);
+    vec2 x = light_cap_ggx(cap, normalize(u[2 * i + 1].xyz), u[2 * i + 1].w, u[2 * i + 1].w);
+    y[i] = vec4(x, light_cap_cosine(cap), light_cap_cosine(sun));
+}
