@@ -3,6 +3,7 @@
 #include "physics/light_sphere.glsl"
 #include "physics/light_punctual.glsl"
 #include "physics/microfacet.glsl"
+#include "physics/surface_light.glsl"
 
 #include "cap_truth.h"
 #include "light_sphere.h"
@@ -212,6 +213,30 @@ static void a_sun_is_a_sphere_far_away(void **state)
     }
 }
 
+// In any frame, under any normal; the eye may stand on the normal or below the horizon.
+static void a_surface_sees_a_small_light_as_a_point(void **state)
+{
+    (void)state;
+    uint seed = 41;
+    surface s = { vec3(0.3f, 0.2f, 0.1f), vec3(0, 0, 0), vec3(0.9f, 0.5f, 0.04f), 1, 0.09f };
+    for (int i = 0; i < 2000; i++) {
+        double a[3], b[3], c[3];
+        direction(&seed, a);
+        direction(&seed, b);
+        direction(&seed, c);
+        vec3 n = normalize(to_vec3(a)), wi = normalize(to_vec3(c));
+        vec3 wo = i % 7 == 0 ? n : normalize(to_vec3(b));
+        wo = dot(n, wo) < 0 ? -wo : wo;
+        wi = dot(n, wi) < 0 ? -wi : wi;
+        if (dot(n, wi) < 0.05f || dot(n, wo) < 0.05f)
+            continue;
+        vec3 expected = surface_direct(s, n, wo, wi);
+        vec3 got = surface_cap(s, n, wo, light_cap_sphere(3.0f * wi, 3e-4f));
+        for (int k = 0; k < 3; k++)
+            assert_near((double)got[k], (double)expected[k], 1e-3 * (double)expected[k]);
+    }
+}
+
 // The clamped cosine over a cap by quadrature in rings about the axis.
 static double cosine_by_rings(double c, double sin_s)
 {
@@ -353,6 +378,7 @@ int main(void)
         cmocka_unit_test(the_anisotropic_highlight_is_right),
         cmocka_unit_test(energy_is_kept),
         cmocka_unit_test(a_small_light_is_a_point),
+        cmocka_unit_test(a_surface_sees_a_small_light_as_a_point),
         cmocka_unit_test(a_sun_is_a_sphere_far_away),
         cmocka_unit_test(the_form_factor_is_exact),
         cmocka_unit_test(no_input_breaks_it),

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "physics/light_sphere.glsl"
+#include "physics/surface_light.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer inputs { vec4 u[]; };
@@ -14,5 +14,7 @@ void main()
     light_cap cap = light_cap_sphere(u[2 * i].xyz, u[2 * i].w);
     light_cap sun = light_cap_sun(cap.axis, cap.sin_s);
     vec2 x = light_cap_ggx(cap, normalize(u[2 * i + 1].xyz), u[2 * i + 1].w, u[2 * i + 1].w);
-    y[i] = vec4(x, light_cap_cosine(cap), light_cap_cosine(sun));
+    surface s = surface(vec3(.1), vec3(0), vec3(.04), 1, .1);
+    vec3 seen = surface_cap(s, vec3(0, 0, 1), normalize(u[2 * i + 1].xyz), sun);
+    y[i] = vec4(x, light_cap_cosine(cap), light_cap_cosine(sun)) + vec4(seen, 0);
 }
