@@ -18,7 +18,7 @@ void demo_spheres(stage *s)
         { { 0.955f, 0.638f, 0.538f }, 1.0f }, { { 0.020f, 0.300f, 0.380f }, 0.0f },
         { { 0.600f, 0.035f, 0.020f }, 0.0f },
     };
-    ag_mesh sphere = stage_sphere(s, 0.46f, 96, 64);
+    ag_mesh sphere = stage_sphere(s, 0.46f, 64, 40);
     for (int row = 0; row < ROWS; row++) {
         for (int column = 0; column < COLUMNS; column++) {
             float roughness = (float)column / (float)(COLUMNS - 1);
@@ -36,7 +36,7 @@ void demo_spheres(stage *s)
 void demo_grid(stage *s)
 {
     enum { SIDE = 7 };
-    ag_mesh sphere = stage_sphere(s, 1.0f, 64, 64);
+    ag_mesh sphere = stage_sphere(s, 1.0f, 48, 32);
     for (int row = 0; row < SIDE; row++) {
         for (int column = 0; column < SIDE; column++) {
             float roughness = fminf(fmaxf((float)column / SIDE, 0.05f), 1.0f);
@@ -60,7 +60,7 @@ void demo_grid(stage *s)
 void demo_furnace(stage *s)
 {
     enum { COLUMNS = 5 };
-    ag_mesh sphere = stage_sphere(s, 0.46f, 96, 64);
+    ag_mesh sphere = stage_sphere(s, 0.46f, 64, 40);
     for (int row = 0; row < 2; row++) {
         for (int column = 0; column < COLUMNS; column++) {
             float roughness = (float)column / (float)(COLUMNS - 1);

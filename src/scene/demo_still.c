@@ -125,7 +125,7 @@ static void show_panels(stage *s)
 
 void demo_materials(stage *s)
 {
-    ag_mesh ball = stage_sphere(s, 0.42f, 96, 64);
+    ag_mesh ball = stage_sphere(s, 0.42f, 64, 40);
     show_metals(s, ball);
     show_dielectrics(s, ball);
     show_normal_map(s, ball);
@@ -148,7 +148,7 @@ void demo_lights(stage *s)
     stage_show(s, stage_box(s, (vec3) { 0.5f, 0.5f, 0.5f }, 0.08f),
                stage_paint(s, (vec3) { 0.50f, 0.06f, 0.04f }, 0.0f, 0.35f),
                (vec3) { -1.4f, 0.5f, -0.3f });
-    stage_show(s, stage_sphere(s, 0.6f, 96, 64),
+    stage_show(s, stage_sphere(s, 0.6f, 64, 40),
                stage_paint(s, (vec3) { 1.0f, 0.782f, 0.344f }, 1.0f, 0.25f),
                (vec3) { 0.1f, 0.6f, 0.2f });
     stage_show(s, stage_torus(s, 0.5f, 0.2f),
