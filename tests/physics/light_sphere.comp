@@ -1,7 +1,8 @@
-// Does the sphere light's text compile for the GPU?
+// Does the text of lights with extent compile for the GPU?
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "physics/light_polygon.glsl"
 #include "physics/surface_light.glsl"
 
 layout(local_size_x = 64) in;
@@ -17,4 +18,5 @@ void main()
     surface s = surface(vec3(.1), vec3(0), vec3(.04), 1, .1);
     vec3 seen = surface_cap(s, vec3(0, 0, 1), normalize(u[2 * i + 1].xyz), sun);
     y[i] = vec4(x, light_cap_cosine(cap), light_cap_cosine(sun)) + vec4(seen, 0);
+    y[i][0] += light_quad_form_factor(u[i].xyz, u[2 * i].xyz, u[i].yzx, u[2 * i].yzx);
 }
