@@ -23,7 +23,7 @@ void materials_destroy(gpu_device *device, materials *m); // zero is allowed
 //
 // Every variant costs a CPU device tens of milliseconds of compilation, so materials
 // share them: within one alpha mode all textured ones do what any of them needs (an
-// absent texture is white), and the untextured ones are another variant.
+// absent texture is one that changes nothing), and the untextured ones are another variant.
 void materials_classify(const ag_scene *scene, gpu_surface_constants *constants);
 
 #endif

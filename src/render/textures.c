@@ -112,22 +112,33 @@ static ag_status upload_used(gpu_device *device, const ag_scene *scene, bool rel
     return status;
 }
 
-static ag_status upload_white(gpu_device *device, gpu_upload *upload, textures *t)
+// An image of one texel.
+static ag_status upload_texel(gpu_device *device, gpu_upload *upload, VkFormat format,
+                              const void *texel, gpu_image *image)
 {
-    static const uint8_t white[4] = { 255, 255, 255, 255 };
     const gpu_image_desc desc = {
-        .format = VK_FORMAT_R8G8B8A8_UNORM,
+        .format = format,
         .width = 1,
         .height = 1,
         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
     };
-    ag_status status = gpu_image_create(device, &desc, &t->white);
+    ag_status status = gpu_image_create(device, &desc, image);
     if (status)
         return status;
-    gpu_upload_image_begin(upload, &t->white);
-    status = gpu_upload_image_level(upload, &t->white, 0, 0, 4, white);
-    gpu_upload_image_end(upload, &t->white);
+    gpu_upload_image_begin(upload, image);
+    status = gpu_upload_image_level(upload, image, 0, 0, 4, texel);
+    gpu_upload_image_end(upload, image);
     return status;
+}
+
+static ag_status upload_stand_ins(gpu_device *device, gpu_upload *upload, textures *t)
+{
+    static const uint8_t white[4] = { 255, 255, 255, 255 };
+    static const uint16_t flat[2] = { 0x3800, 0x3800 }; // .5, which no byte is
+    ag_status status =
+        upload_texel(device, upload, VK_FORMAT_R8G8B8A8_UNORM, white, &t->white);
+    return status ? status
+                  : upload_texel(device, upload, VK_FORMAT_R16G16_SFLOAT, flat, &t->flat);
 }
 
 ag_status textures_create(gpu_device *device, const ag_scene *scene, bool release,
@@ -136,7 +147,7 @@ ag_status textures_create(gpu_device *device, const ag_scene *scene, bool releas
     *t = (textures) { 0 };
     ag_status status = index_images(scene, t);
     if (!status)
-        status = upload_white(device, upload, t);
+        status = upload_stand_ins(device, upload, t);
     if (!status)
         status = upload_used(device, scene, release, upload, t);
     if (status)
@@ -151,6 +162,7 @@ void textures_destroy(gpu_device *device, textures *t)
     for (size_t i = 0; i < t->sampler_count; i++)
         vkDestroySampler(device->device, t->samplers[i], NULL);
     gpu_image_destroy(device, &t->white);
+    gpu_image_destroy(device, &t->flat);
     free(t->images);
     free(t->image_of);
     free(t->samplers);
@@ -225,7 +237,7 @@ ag_status textures_bind(gpu_device *device, textures *t, const ag_scene *scene,
 {
     const ag_texture_desc plain = { 0 };
     if (!use->texture.id) {
-        *view = t->white.view;
+        *view = kind == TEXTURE_NORMAL ? t->flat.view : t->white.view;
         return sampler_for(device, t, &plain, sampler);
     }
     size_t texture = use->texture.id - 1;

@@ -26,7 +26,8 @@ typedef struct textures {
     size_t sampler_count, sampler_capacity;
     ag_texture_desc *sampler_descs; // what samplers[i] was made for
     size_t sampler_desc_capacity;
-    gpu_image white; // stands in for a texture that is not there
+    gpu_image white; // stands in for a texture that is not there,
+    gpu_image flat;  // this one for a normal map
 } textures;
 
 // `release`: give an image's pixels in host memory back as soon as it is uploaded.
@@ -40,7 +41,7 @@ texture_kind textures_kind(const ag_material_desc *material, uint32_t slot);
 // The use that a material makes of texture `slot`.
 const ag_texture_use *textures_use(const ag_material_desc *material, uint32_t slot);
 
-// What to bind for it; the white image where the material has none.
+// What to bind for it; an image that changes nothing where the material has none.
 AG_CHECK ag_status textures_bind(gpu_device *device, textures *t, const ag_scene *scene,
                                  const ag_texture_use *use, texture_kind kind, VkImageView *view,
                                  VkSampler *sampler);

@@ -278,6 +278,47 @@ static void normal_maps_turn_with_their_texture(void **state)
     }
 }
 
+static void use_texel(ag_scene *scene, const uint8_t texel[4], ag_texture_use *use)
+{
+    const ag_image_desc image_desc = { 1, 1, AG_FORMAT_RGBA8, texel };
+    ag_image *image;
+    OK(ag_image_create(NULL, &image_desc, &image));
+    const ag_texture_desc desc = { .image = image };
+    OK(ag_scene_add_texture(scene, &desc, &use->texture));
+    ag_image_destroy(image);
+}
+
+// Materials share a shader that reads every texture which any of them has: one that has
+// fewer is as if it stood alone.
+static void textures_of_others_change_nothing(void **state)
+{
+    static const uint8_t white[4] = { 255, 255, 255, 255 }, odd[4] = { 200, 90, 30, 60 };
+    float value[2];
+    for (int with = 0; with < 2; with++) {
+        ag_scene *scene = stage_dark();
+        ag_material_desc plain = ag_material_default(), rich = plain;
+        use_texel(scene, white, &plain.base_color_texture);
+        stage_show(scene, stage_quad(scene, -0.5f, -0.5f, 0.5f, 0.5f, 0, NULL), &plain);
+        use_texel(scene, odd, &rich.base_color_texture);
+        use_texel(scene, odd, &rich.metallic_roughness_texture);
+        use_texel(scene, odd, &rich.normal_texture);
+        use_texel(scene, odd, &rich.occlusion_texture);
+        use_texel(scene, odd, &rich.emissive_texture);
+        use_texel(scene, odd, &rich.specular_texture);
+        use_texel(scene, odd, &rich.specular_color_texture);
+        if (with)
+            stage_show(scene, stage_quad(scene, 0.6f, 0.6f, 1, 1, 0, NULL), &rich);
+        stage_surround(scene, 1, 0.5f, 0.25f);
+        add(scene, (ag_light_desc) { .kind = AG_LIGHT_DIRECTIONAL,
+                                     .direction = { 0.4f, 0.3f, -1 },
+                                     .intensity = 3 });
+        value[with] = center(*state, scene);
+        ag_scene_destroy(scene);
+    }
+    assert_true(value[0] > 0.1f);
+    assert_close(value[1], value[0], 1e-3f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -292,6 +333,7 @@ int main(void)
         KIT_TEST(mirrored_instances_keep_their_light),
         KIT_TEST(sides),
         KIT_TEST(normal_maps_turn_with_their_texture),
+        KIT_TEST(textures_of_others_change_nothing),
     };
     return cmocka_run_group_tests(tests, kit_open, kit_close);
 }
