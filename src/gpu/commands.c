@@ -88,6 +88,10 @@ ag_status gpu_commands_wait(gpu_device *device, gpu_commands *commands)
 ag_status gpu_commands_begin(gpu_device *device, gpu_commands *commands)
 {
     ag_status status = gpu_commands_wait(device, commands);
+    // What was recorded before may have been given up half-way.
+    if (!status)
+        status = gpu_check(device, vkResetCommandBuffer(commands->buffer, 0),
+                           "vkResetCommandBuffer");
     if (status)
         return status;
     const VkCommandBufferBeginInfo info = {

@@ -15,7 +15,7 @@ typedef struct gpu_commands {
 AG_CHECK ag_status gpu_commands_create(gpu_device *device, gpu_commands *commands);
 void gpu_commands_destroy(gpu_device *device, gpu_commands *commands); // waits; zero is allowed
 
-// Waits for what was submitted before.
+// Waits for what was submitted before, and drops what was recorded and not submitted.
 AG_CHECK ag_status gpu_commands_begin(gpu_device *device, gpu_commands *commands);
 AG_CHECK ag_status gpu_commands_submit(gpu_device *device, gpu_commands *commands);
 AG_CHECK ag_status gpu_commands_wait(gpu_device *device, gpu_commands *commands);
