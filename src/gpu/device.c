@@ -112,7 +112,10 @@ static ag_status open_logical(gpu_device *device)
         .queueCount = 1,
         .pQueuePriorities = &priority,
     };
-    const VkPhysicalDeviceFeatures enabled = { .samplerAnisotropy = anisotropic };
+    const VkPhysicalDeviceFeatures enabled = {
+        .samplerAnisotropy = anisotropic,
+        .fullDrawIndexUint32 = present.fullDrawIndexUint32, // meshes above 2^24 vertices
+    };
     const VkDeviceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
         .pNext = &v12,
