@@ -106,6 +106,14 @@ static int compare(const void *a, const void *b)
     return 0;
 }
 
+// Slices of depth, each 1.3 times as far as the one before: near enough to front to back
+// for the depth test, coarse enough to gather instances.
+static int32_t slice_of(const view *v, float nearest)
+{
+    float slice = log2f(fmaxf(nearest, v->near_m) / v->near_m) * 2.6f;
+    return slice < 1000 ? (int32_t)slice : 1000; // a depth that overflows is the last one
+}
+
 // Candidates of everything that may be seen; how many comes back.
 static uint32_t gather(const ag_scene *scene, const view *v, candidate *list)
 {
@@ -125,12 +133,8 @@ static uint32_t gather(const ag_scene *scene, const view *v, candidate *list)
             .instance = (uint32_t)i,
             .mirrored = is_mirrored(instance->world),
         };
-        // Slices of depth, each 1.3 times as far as the one before: near enough to front
-        // to back for the depth test, coarse enough to gather instances.
-        float nearest = c.depth - support(&b, v->forward);
-        c.slice = (int32_t)floorf(log2f(fmaxf(nearest, v->near_m) / v->near_m) * 2.6f);
-        if (v->orthographic)
-            c.slice = 0;
+        if (!v->orthographic)
+            c.slice = slice_of(v, c.depth - support(&b, v->forward));
         if (c.group == AG_ALPHA_BLEND && material->double_sided) {
             c.side = 1;
             list[count++] = c;
