@@ -95,7 +95,7 @@ typedef struct ag_render_options {
     ag_background background;
     float background_color[3]; // sRGB-coded, shown as it is, not exposed
     float exposure;            // linear factor; 0 -> 1
-    ag_progress progress;      // stages "bake", "upload", "render", "read back"
+    ag_progress progress;      // stage "render"
 } ag_render_options;
 
 // Milliseconds of wall time that one render spent, and what it drew.

@@ -10,8 +10,8 @@
 AG_CHECK ag_status file_read(const ag_log *log, const char *path, size_t limit, void **data,
                              size_t *size);
 
-// Write a whole file, or nothing: the bytes go to a temporary file in the same
-// folder, which is synced to disk as far as errors are noticed and then renamed.
+// Write a whole file, or nothing: the bytes go to a temporary file in the same folder,
+// which is renamed when it is complete.
 AG_CHECK ag_status file_write(const ag_log *log, const char *path, const void *data, size_t size);
 
 // A writer for encoders that produce their bytes piece by piece.
