@@ -56,6 +56,8 @@ STRUCT_END(gpu_frame)
 #define GPU_LIGHT_SPOT        1u
 #define GPU_LIGHT_DIRECTIONAL 2u
 
+#define GPU_LIGHTS_MAX 1024 // fills the 64 KiB that a uniform buffer may have
+
 STRUCT_BEGIN(gpu_light)
     float3 position; // m, world space
     float inverse_range2;
@@ -65,6 +67,7 @@ STRUCT_BEGIN(gpu_light)
     float2 cone;      // light_spot_cone()
 STRUCT_END(gpu_light)
 
+// Read as a vertex's attributes.
 STRUCT_BEGIN(gpu_instance)
     float4 rows[3]; // of the affine matrix world_from_object
 STRUCT_END(gpu_instance)
@@ -126,6 +129,7 @@ STRUCT_END(gpu_resolve)
 #ifndef GL_core_profile
 _Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 9 * 12, "gpu_frame");
 _Static_assert(sizeof(gpu_light) == 16 + 16 + 12 + 8, "gpu_light");
+_Static_assert(sizeof(gpu_light) * GPU_LIGHTS_MAX <= 65536, "GPU_LIGHTS_MAX");
 _Static_assert(sizeof(gpu_instance) == 48, "gpu_instance");
 _Static_assert(sizeof(gpu_material) == 16 + 16 + 16 + 24 + 2 * GPU_TEXTURE_COUNT * 12,
                "gpu_material");

@@ -9,6 +9,9 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 uvs;
 layout(location = 4) in vec4 color;
+layout(location = 5) in vec4 row_x; // of gpu_instance
+layout(location = 6) in vec4 row_y;
+layout(location = 7) in vec4 row_z;
 
 layout(location = 0) out vec3 out_position; // world space
 layout(location = 1) out vec3 out_normal;   // not normalised
@@ -18,11 +21,9 @@ layout(location = 4) out vec4 out_color;
 
 void main()
 {
-    gpu_instance instance = instances[gl_InstanceIndex];
-    vec3 x = instance.rows[0].xyz, y = instance.rows[1].xyz, z = instance.rows[2].xyz;
+    vec3 x = row_x.xyz, y = row_y.xyz, z = row_z.xyz;
     vec4 p = vec4(position, 1.0);
-    out_position = vec3(dot(instance.rows[0], p), dot(instance.rows[1], p),
-                        dot(instance.rows[2], p));
+    out_position = vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p));
     gl_Position = frame.clip_from_world * vec4(out_position, 1.0);
 
     // Normals go by the cofactors, which are right under any scaling; mirrored ones

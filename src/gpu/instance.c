@@ -111,6 +111,8 @@ static const char *missing_part(VkPhysicalDevice physical, const VkPhysicalDevic
         return "maintenance4";
     if (!v12.scalarBlockLayout)
         return "scalarBlockLayout";
+    if (props->limits.maxUniformBufferRange < 65536)
+        return "uniform buffers of 64 KiB";
     if (!(props->limits.framebufferColorSampleCounts & props->limits.framebufferDepthSampleCounts &
           VK_SAMPLE_COUNT_4_BIT))
         return "4 samples a pixel";

@@ -28,8 +28,7 @@ static ag_status surface_pipeline(ag_renderer *r, const picture *p, uint32_t mat
         key.constants.environment = p->options->quality == AG_QUALITY_FAST
                                         ? GPU_ENVIRONMENT_HARMONICS
                                         : GPU_ENVIRONMENT_CUBE;
-    // A loop of known length is a third faster; a few lengths are enough.
-    key.constants.lights = lights <= 4 ? lights : GPU_LIGHTS_ANY;
+    key.constants.lights = lights <= 8 ? lights : GPU_LIGHTS_ANY;
     key.constants.tone = surface_tone(p);
     key.constants.samples = r->targets.desc.samples;
     if (key.constants.unlit)
@@ -115,11 +114,12 @@ static ag_status record_scene(ag_renderer *r, const picture *p, bool warm_up)
 {
     VkCommandBuffer cmd = r->commands.buffer;
     const targets_desc *desc = &r->targets.desc;
-    const VkDeviceSize zero = 0;
+    const VkBuffer vertices[] = { r->resident.geometry.vertices.buffer, r->instances.buffer };
+    const VkDeviceSize offsets[] = { 0, 0 };
     set_area(cmd, desc->width, desc->height, warm_up);
     bind_set(cmd, r->bindings.surfaces, 0, r->bindings.frame);
     if (p->draws.count) {
-        vkCmdBindVertexBuffers(cmd, 0, 1, &r->resident.geometry.vertices.buffer, &zero);
+        vkCmdBindVertexBuffers(cmd, 0, 2, vertices, offsets);
         vkCmdBindIndexBuffer(cmd, r->resident.geometry.indices.buffer, 0, VK_INDEX_TYPE_UINT32);
     }
     ag_status status = record_draws(r, p, 0, p->draws.opaque_count, warm_up);

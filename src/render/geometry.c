@@ -2,6 +2,7 @@
 #include "render/geometry.h"
 
 #include "base/log.h"
+#include "interop/scene.glsl"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -10,19 +11,24 @@ _Static_assert(sizeof(scene_vertex) == 64, "uploaded as it is");
 
 const VkPipelineVertexInputStateCreateInfo *geometry_vertex_input(void)
 {
-    static const VkVertexInputBindingDescription binding = { 0, sizeof(scene_vertex),
-                                                             VK_VERTEX_INPUT_RATE_VERTEX };
+    static const VkVertexInputBindingDescription bindings[] = {
+        { 0, sizeof(scene_vertex), VK_VERTEX_INPUT_RATE_VERTEX },
+        { 1, sizeof(gpu_instance), VK_VERTEX_INPUT_RATE_INSTANCE },
+    };
     static const VkVertexInputAttributeDescription attributes[] = {
         { 0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(scene_vertex, position) },
         { 1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(scene_vertex, normal) },
         { 2, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(scene_vertex, tangent) },
         { 3, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(scene_vertex, uv) },
         { 4, 0, VK_FORMAT_R16G16B16A16_UNORM, offsetof(scene_vertex, color) },
+        { 5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0 },
+        { 6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 16 },
+        { 7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 32 },
     };
     static const VkPipelineVertexInputStateCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = 1,
-        .pVertexBindingDescriptions = &binding,
+        .vertexBindingDescriptionCount = sizeof bindings / sizeof *bindings,
+        .pVertexBindingDescriptions = bindings,
         .vertexAttributeDescriptionCount = sizeof attributes / sizeof *attributes,
         .pVertexAttributeDescriptions = attributes,
     };

@@ -20,7 +20,7 @@ AG_CHECK ag_status geometry_create(gpu_device *device, const ag_scene *scene, gp
                                    geometry *g);
 void geometry_destroy(gpu_device *device, geometry *g); // zero is allowed
 
-// How a vertex shader reads scene_vertex.  Static storage.
+// How a vertex shader reads scene_vertex (binding 0) and gpu_instance (binding 1).  Static storage.
 const VkPipelineVertexInputStateCreateInfo *geometry_vertex_input(void);
 
 #endif

@@ -113,7 +113,7 @@ static ag_status plan(const ag_scene *scene, const ag_camera_desc *camera,
 static ag_status upload_instances(ag_renderer *r, const draws *d)
 {
     ag_status status = gpu_buffer_ensure(r->device, d->instance_count * sizeof(gpu_instance),
-                                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, GPU_MEMORY_UPLOAD,
+                                         VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, GPU_MEMORY_UPLOAD,
                                          &r->instances);
     if (!status)
         memcpy(r->instances.memory.mapped, d->instances, d->instance_count * sizeof(gpu_instance));
@@ -129,11 +129,9 @@ static void write_frame_set(ag_renderer *r)
     bindings_write_image(r->device, set, 1, s->cube.view, r->bindings.linear);
     bindings_write_image(r->device, set, 2, s->image.view, r->bindings.panorama);
     bindings_write_image(r->device, set, 3, s->dfg.view, r->bindings.linear);
-    bindings_write_buffer(r->device, set, 4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    bindings_write_buffer(r->device, set, 4, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                           r->resident.lights.buffer, 0, VK_WHOLE_SIZE);
-    bindings_write_buffer(r->device, set, 5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                          r->instances.buffer, 0, VK_WHOLE_SIZE);
-    bindings_write_image(r->device, set, 6, s->irradiance.view, r->bindings.linear);
+    bindings_write_image(r->device, set, 5, s->irradiance.view, r->bindings.linear);
     if (r->targets.radiance.view)
         bindings_write_image(r->device, r->bindings.picture, 0, r->targets.radiance.view,
                              r->bindings.linear);

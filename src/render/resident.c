@@ -27,10 +27,15 @@ static gpu_light pack_light(const ag_light_desc *d)
 
 static ag_status make_lights(gpu_device *device, const ag_scene *scene, resident *r)
 {
-    r->light_count = (uint32_t)scene->lights_count;
+    r->light_count = GPU_LIGHTS_MAX;
+    if (scene->lights_count < GPU_LIGHTS_MAX)
+        r->light_count = (uint32_t)scene->lights_count;
+    else if (scene->lights_count > GPU_LIGHTS_MAX)
+        log_write(&device->log, AG_LOG_WARNING, "of %zu lights only the first %d are shown",
+                  scene->lights_count, GPU_LIGHTS_MAX);
     ag_status status =
-        gpu_buffer_create(device, r->light_count * sizeof(gpu_light),
-                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, GPU_MEMORY_UPLOAD, &r->lights);
+        gpu_buffer_create(device, GPU_LIGHTS_MAX * sizeof(gpu_light),
+                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, GPU_MEMORY_UPLOAD, &r->lights);
     if (status)
         return status;
     gpu_light *lights = r->lights.memory.mapped;
