@@ -88,6 +88,7 @@ static inline vec3 tonemap_agx(vec3 c)
 // `kind`: a TONEMAP_ constant.  `c` is not negative.
 static inline vec3 tonemap(uint kind, vec3 c)
 {
+    c = min(c, 1000000.0f); // white for every curve, and none of them overflows
     if (kind == TONEMAP_NEUTRAL)
         c = tonemap_neutral(c);
     else if (kind == TONEMAP_REINHARD)

@@ -111,6 +111,16 @@ static void curves_rise(void **state)
     }
 }
 
+// Light beyond all measure is white, not the NaN of an overflow.
+static void endless_light_is_white(void **state)
+{
+    (void)state;
+    const float lights[] = { 1e10f, 3e38f, INFINITY };
+    for (uint kind = 0; kind < 6; kind++)
+        for (int i = 0; i < 3; i++)
+            assert_near((double)tonemap(kind, grey(lights[i]))[0], 1.0, 0.02);
+}
+
 static void exposure_is_the_standard(void **state)
 {
     (void)state;
@@ -129,6 +139,7 @@ int main(void)
         cmocka_unit_test(reinhard_and_none),
         cmocka_unit_test(agx_is_anchored),
         cmocka_unit_test(curves_rise),
+        cmocka_unit_test(endless_light_is_white),
         cmocka_unit_test(exposure_is_the_standard),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
