@@ -40,8 +40,8 @@ bench: ## build and run the benchmarks
 	@scripts/packages.sh build run test
 	@test -f build/bench/build.ninja || cmake --preset release -B build/bench -DARGAND_BENCH=ON
 	@cmake --build build/bench -j $(JOBS)
-	@for program in build/bench/bench/bench_*; do \
-	    if test -x "$$program"; then echo "$$program"; "$$program" || exit 1; fi; done
+	@for scene in spheres grid million nodes; do \
+	    build/bench/bench/bench_frames demo:$$scene || exit 1; done
 
 accuracy: ## print the sphere light's error against quadrature
 	@scripts/packages.sh build run test
