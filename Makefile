@@ -42,6 +42,7 @@ bench: ## build and run the benchmarks
 	@cmake --build build/bench -j $(JOBS)
 	@for scene in spheres grid million nodes; do \
 	    build/bench/bench/bench_frames demo:$$scene || exit 1; done
+	@build/bench/bench/bench_scale
 
 accuracy: ## print the sphere light's error against quadrature
 	@scripts/packages.sh build run test
