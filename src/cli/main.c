@@ -3,6 +3,7 @@
 
 #include <argand/argand.h>
 
+#include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,8 +24,18 @@ static exit_code dispatch(int argc, char **argv)
     return c ? c->run(argc - 2, argv + 2) : command_unknown(argv[1]);
 }
 
+// Large blocks go back to the system when they are freed.  By itself glibc raises its
+// threshold with every image that is freed, and keeps the next ones.
+static void return_large_blocks(void)
+{
+#ifdef M_MMAP_THRESHOLD
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
+}
+
 int main(int argc, char **argv)
 {
+    return_large_blocks();
     signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error to report, not a signal
     exit_code code = dispatch(argc, argv);
     if (fflush(stdout) != 0 || ferror(stdout)) {

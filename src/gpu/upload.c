@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { SLOT_SIZE = 8 << 20, ALIGNMENT = 64 };
+enum { SLOT_SIZE = 4 << 20, ALIGNMENT = 64 };
 
 ag_status gpu_upload_begin(gpu_device *device, gpu_upload *upload)
 {
