@@ -36,6 +36,7 @@ AG_CHECK ag_status gpu_upload_image_level(gpu_upload *upload, const gpu_image *i
 
 // Submit what is left; the device finishes it before anything submitted later.
 AG_CHECK ag_status gpu_upload_end(gpu_upload *upload);
-void gpu_upload_finish(gpu_upload *upload); // waits; zero is allowed
+// Waits; zero is allowed.  After a failure, what was uploaded to may be destroyed only then.
+void gpu_upload_finish(gpu_upload *upload);
 
 #endif

@@ -86,11 +86,7 @@ ag_status geometry_create(gpu_device *device, const ag_scene *scene, gpu_upload 
             device, indices * 4,
             VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_MEMORY_DEVICE,
             &g->indices);
-    if (!status)
-        status = fill(scene, upload, g);
-    if (status)
-        geometry_destroy(device, g);
-    return status;
+    return status ? status : fill(scene, upload, g);
 }
 
 void geometry_destroy(gpu_device *device, geometry *g)

@@ -16,6 +16,8 @@ typedef struct geometry {
     geometry_range *ranges; // one a mesh of the scene
 } geometry;
 
+// On failure what is half made stays for geometry_destroy, after the upload is finished: the
+// device may still be copying into it.
 AG_CHECK ag_status geometry_create(gpu_device *device, const ag_scene *scene, gpu_upload *upload,
                                    geometry *g);
 void geometry_destroy(gpu_device *device, geometry *g); // zero is allowed

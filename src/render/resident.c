@@ -77,11 +77,7 @@ static ag_status make_things(ag_renderer *renderer, const ag_scene *scene, bool 
     if (!status)
         status =
             materials_create(device, &renderer->bindings, scene, &r->textures, &r->materials);
-    if (!status)
-        status = make_lights(device, scene, r);
-    if (status)
-        destroy_things(device, r);
-    return status;
+    return status ? status : make_lights(device, scene, r);
 }
 
 ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool release,
@@ -99,8 +95,10 @@ ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool rel
         status = gpu_upload_end(&upload);
     gpu_upload_finish(&upload);
     *upload_ms += clock_ms() - start;
-    if (status)
+    if (status) {
+        destroy_things(renderer->device, r); // now that nothing is copied into them any more
         return status;
+    }
     r->scene = scene->id;
     r->revision = scene->revision;
     return AG_OK;
@@ -142,8 +140,10 @@ ag_status resident_surround(ag_renderer *renderer, const ag_scene *scene, bool s
         status = gpu_upload_end(&upload);
     gpu_upload_finish(&upload);
     stats->upload_ms += clock_ms() - start - stats->bake_ms;
-    if (status)
+    if (status) {
+        surround_destroy(renderer->device, &r->surround);
         return status;
+    }
     r->surrounded = scene->id;
     r->environment_revision = scene->environment_revision;
     return AG_OK;

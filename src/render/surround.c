@@ -122,8 +122,6 @@ ag_status surround_create(gpu_device *device, const ag_image *equirect, bool ima
         status = s->image_wanted ? upload_image(device, upload, equirect, &s->image)
                                  : upload_black(device, upload, false, &s->image);
     bake_environment_finish(&baked);
-    if (status)
-        surround_destroy(device, s);
     return status;
 }
 

@@ -18,6 +18,8 @@ typedef struct surround {
 } surround;
 
 // `equirect` NULL: none.  `image_wanted`: the background shows it.
+// On failure what is half made stays for surround_destroy, after the upload is finished: the
+// device may still be copying into it.
 AG_CHECK ag_status surround_create(gpu_device *device, const ag_image *equirect, bool image_wanted,
                                    gpu_upload *upload, bool *cached, double *bake_ms, surround *s);
 void surround_destroy(gpu_device *device, surround *s); // zero is allowed

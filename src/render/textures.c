@@ -148,11 +148,7 @@ ag_status textures_create(gpu_device *device, const ag_scene *scene, bool releas
     ag_status status = index_images(scene, t);
     if (!status)
         status = upload_stand_ins(device, upload, t);
-    if (!status)
-        status = upload_used(device, scene, release, upload, t);
-    if (status)
-        textures_destroy(device, t);
-    return status;
+    return status ? status : upload_used(device, scene, release, upload, t);
 }
 
 void textures_destroy(gpu_device *device, textures *t)

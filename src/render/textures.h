@@ -31,6 +31,8 @@ typedef struct textures {
 } textures;
 
 // `release`: give an image's pixels in host memory back as soon as it is uploaded.
+// On failure what is half made stays for textures_destroy, after the upload is finished: the
+// device may still be copying into it.
 AG_CHECK ag_status textures_create(gpu_device *device, const ag_scene *scene, bool release,
                                    gpu_upload *upload, textures *t);
 void textures_destroy(gpu_device *device, textures *t); // zero is allowed

@@ -85,6 +85,32 @@ static void an_empty_scene_is_its_environment(void **state)
     ag_renderer_destroy(renderer);
 }
 
+// A texture that the device cannot have, found when half of the scene is there: the renderer
+// goes on with other scenes.
+static void a_failed_upload_leaves_nothing(void **state)
+{
+    ag_renderer *renderer;
+    OK(ag_renderer_create(*state, &renderer));
+    ag_scene *scene = stage_dark();
+    const ag_image_desc wide = { ag_device_describe(*state)->max_size + 1, 1, AG_FORMAT_RGBA8,
+                                 NULL };
+    ag_image *image;
+    OK(ag_image_create(NULL, &wide, &image));
+    const ag_texture_desc texture = { .image = image };
+    ag_material_desc material = ag_material_default();
+    OK(ag_scene_add_texture(scene, &texture, &material.base_color_texture.texture));
+    ag_image_destroy(image);
+    stage_show(scene, stage_quad(scene, -1, -1, 1, 1, 0, NULL), &material);
+    assert_int_equal(ag_renderer_render(renderer, scene, NULL, &small, &image, NULL),
+                     AG_ERROR_UNSUPPORTED);
+    assert_null(image);
+    ag_scene *other = demo("lights");
+    ag_image_destroy(draw(renderer, other, &small));
+    ag_scene_destroy(other);
+    ag_scene_destroy(scene);
+    ag_renderer_destroy(renderer);
+}
+
 static bool stop(void *user, const char *stage, double fraction)
 {
     (void)stage;
@@ -130,6 +156,7 @@ int main(void)
         KIT_TEST(pictures_do_not_depend_on_history),
         KIT_TEST(changes_are_seen),
         KIT_TEST(an_empty_scene_is_its_environment),
+        KIT_TEST(a_failed_upload_leaves_nothing),
         KIT_TEST(wrong_options_are_refused),
     };
     return cmocka_run_group_tests(tests, kit_open, kit_close);
