@@ -41,9 +41,10 @@ ag_status file_read(const ag_log *log, const char *path, size_t limit, void **da
     if (fd < 0)
         return log_fail(log, AG_ERROR_FILE, "%s: cannot be opened: %s", path, strerror(errno));
     ag_status status;
-    struct stat st;
+    struct stat st = { 0 };
     if (fstat(fd, &st) != 0 || !S_ISREG(st.st_mode))
-        status = log_fail(log, AG_ERROR_FILE, "%s: is not a regular file", path);
+        status = log_fail(log, AG_ERROR_FILE, "%s: is %s", path,
+                          S_ISDIR(st.st_mode) ? "a folder" : "not a regular file");
     else if ((uint64_t)st.st_size > limit)
         status = log_fail(log, AG_ERROR_FILE, "%s: has %lld bytes, more than the limit of %zu",
                           path, (long long)st.st_size, limit);

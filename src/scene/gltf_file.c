@@ -87,7 +87,8 @@ ag_status gltf_file_open(gltf_file *file)
     while (space < length && strchr(" \t\r\n", text[space]) && text[space])
         space++;
     if (space == length || text[space] != '{')
-        return gltf_fail(&at, AG_ERROR_FORMAT, "is neither .gltf nor .glb");
+        return gltf_fail(&at, AG_ERROR_FORMAT,
+                         file->size ? "is neither .gltf nor .glb" : "is empty");
     json_error_t error;
     file->root = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
     if (!file->root)

@@ -111,7 +111,7 @@ static void containers(void **state)
     assert_int_equal(load_all_or_nothing(k, bytes, size), AG_OK);
     free(bytes);
     assert_int_equal(load_all_or_nothing(k, "", 0), AG_ERROR_FORMAT);
-    assert_non_null(strstr(k->said, "is neither .gltf nor .glb"));
+    assert_non_null(strstr(k->said, "is empty"));
     assert_int_equal(load_all_or_nothing(k, "solid stl", 9), AG_ERROR_FORMAT);
     assert_non_null(strstr(k->said, "is neither .gltf nor .glb"));
 }

@@ -100,7 +100,7 @@ static void forbidden(void **state)
     fails(k, AG_ERROR_FORMAT, "is not a file's name", "");
     fails(k, AG_ERROR_FILE, "\"missing.bin\" cannot be opened", "missing.bin");
     fails(k, AG_ERROR_FORMAT, "does not lie in", ".");
-    fails(k, AG_ERROR_FILE, "is not a regular file", "inner");
+    fails(k, AG_ERROR_FILE, "is a folder", "inner");
 }
 
 static void links(void **state)
