@@ -44,9 +44,15 @@ median() { # FILE COLUMN
 report() { # NAME
     for column in 1 2 3; do median "$1" $column; done | tr '\n' ' '
 }
-echo "$(report f3d) $(report warm) $(report cold)" | awk '{
-    printf "f3d          %6.2f s wall  %6.2f s CPU  %5.0f MiB\n", $1, $2, $3 / 1024
-    printf "argand warm  %6.2f s wall  %6.2f s CPU  %5.0f MiB: 1/%.1f of the wall time, 1/%.1f of the CPU time\n",
-        $4, $5, $6 / 1024, $1 / $4, $2 / $5
-    printf "argand cold  %6.2f s wall  %6.2f s CPU  %5.0f MiB: 1/%.1f of the wall time, 1/%.1f of the CPU time\n",
-        $7, $8, $9 / 1024, $1 / $7, $2 / $8 }'
+echo "$(report f3d) $(report warm) $(report cold)" | awk '
+    function row(name, wall, cpu, kib) {
+        printf "%-11s  %6.2f s wall  %6.2f s CPU  %5.0f MiB", name, wall, cpu, kib / 1024
+    }
+    function against(wall, cpu) {
+        printf ": 1/%.1f of the wall time, 1/%.1f of the CPU time\n", $1 / wall, $2 / cpu
+    }
+    {
+        row("f3d", $1, $2, $3); print ""
+        row("argand warm", $4, $5, $6); against($4, $5)
+        row("argand cold", $7, $8, $9); against($7, $8)
+    }'
