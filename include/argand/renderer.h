@@ -49,7 +49,9 @@ typedef struct ag_device_desc {
 
 typedef struct ag_device ag_device;
 
-// Open a device.  NULL desc -> defaults.
+// Open a device.  NULL desc -> defaults.  Unless MESA_SHADER_CACHE_DIR is set, it is set
+// for this process, to a folder of Argand's cache: open the first device before other
+// threads read the environment.
 AG_CHECK ag_status ag_device_create(const ag_device_desc *desc, ag_device **device);
 AG_API void ag_device_destroy(ag_device *device); // NULL is allowed
 
@@ -110,7 +112,8 @@ typedef struct ag_render_stats {
 // images in host memory as they arrive: for programs that need each scene once, this saves
 // their size at the peak.  From then on only this renderer can draw the scene, and only as
 // long as it is not changed and no other scene was drawn in between; AG_ERROR_ARGUMENT
-// otherwise.  `upload_ms`, what it took, may be NULL.
+// otherwise.  A failure half-way may already have freed some.  `upload_ms`, what it took,
+// may be NULL.
 AG_CHECK ag_status ag_renderer_take(ag_renderer *renderer, ag_scene *scene, double *upload_ms);
 
 // Make a picture.  Meshes, textures and the environment are kept on the device until a

@@ -39,7 +39,7 @@ STRUCT_BEGIN(gpu_frame)
     float3 eye;
     float orthographic; // 1 or 0
     float3 ray_center;
-    float background_lod; // level of the equirectangular image
+    float footprint; // of a sample: 1 = the whole pixel; less where frames are summed
     float3 ray_x;
     float exposure; // linear factor, the environment's intensity excluded
     float3 ray_y;

@@ -17,7 +17,7 @@ void main()
     if (frame.orthographic == 0.0)
         d += in_clip.x * frame.ray_x + in_clip.y * frame.ray_y;
     vec2 uv = environment_uv(normalize(environment_from_world(d)));
-    vec3 color = textureLod(environment_image, uv, frame.background_lod).rgb *
+    vec3 color = textureLod(environment_image, uv, 0.0).rgb *
                  (frame.environment_intensity * frame.exposure);
     if (TONE != GPU_TONE_LINEAR)
         color = tonemap(TONE, color);

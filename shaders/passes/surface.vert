@@ -26,8 +26,13 @@ void main()
     out_position = vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p));
     gl_Position = frame.clip_from_world * vec4(out_position, 1.0);
 
-    // Normals go by the cofactors, which are right under any scaling; mirrored ones
-    // would turn inside out, hence the sign of the determinant.
+    // Normals go by the cofactors, which are right under any scaling (made of size 1 first,
+    // lest they overflow); mirrored ones would turn inside out, hence the sign of the
+    // determinant.
+    float size = inversesqrt(dot(x, x) + dot(y, y) + dot(z, z));
+    x *= size;
+    y *= size;
+    z *= size;
     vec3 yz = cross(y, z);
     float flip = dot(x, yz) < 0.0 ? -1.0 : 1.0;
     out_normal = flip * normalize(vec3(dot(yz, normal), dot(cross(z, x), normal),

@@ -72,12 +72,37 @@ static void writer_free(file_writer *writer)
     free(writer);
 }
 
+// The file that `path` stands for, through symbolic links, also where the last one points
+// to a file that is not there yet; the caller's to free().
+static char *follow_links(const char *path)
+{
+    char *at = strdup(path);
+    for (int i = 0; i < 40 && at; i++) { // as many as the kernel follows
+        char target[4096];
+        ssize_t length = readlink(at, target, sizeof target - 1);
+        if (length < 0)
+            break; // no link
+        target[length] = 0;
+        const char *slash = strrchr(at, '/');
+        size_t folder = *target == '/' || !slash ? 0 : (size_t)(slash - at) + 1;
+        char *next = malloc(folder + (size_t)length + 1);
+        if (next) {
+            memcpy(next, at, folder);
+            memcpy(next + folder, target, (size_t)length + 1);
+        }
+        free(at);
+        at = next;
+    }
+    return at;
+}
+
 ag_status file_writer_open(const ag_log *log, const char *path, file_writer **out)
 {
     *out = NULL;
     file_writer *writer = calloc(1, sizeof *writer);
-    size_t length = strlen(path);
-    char *copy = strdup(path), *temporary = malloc(length + 32);
+    char *copy = follow_links(path); // a link stays a link
+    size_t length = copy ? strlen(copy) : 0;
+    char *temporary = malloc(length + 32);
     if (!writer || !copy || !temporary) {
         free(writer);
         free(copy);
@@ -86,7 +111,7 @@ ag_status file_writer_open(const ag_log *log, const char *path, file_writer **ou
     }
     *writer = (file_writer) { log_resolve(log), copy, temporary, -1 };
     for (unsigned i = 0; i < 100; i++) { // a name of our own, whoever else writes there
-        snprintf(temporary, length + 32, "%s.%ld-%u.tmp", path, (long)getpid(), i);
+        snprintf(temporary, length + 32, "%s.%ld-%u.tmp", copy, (long)getpid(), i);
         writer->fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (writer->fd >= 0 || errno != EEXIST)
             break;

@@ -300,7 +300,7 @@ ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t 
     view_frame(&p->view, tile, offset, frame);
     surround_frame(&r->resident.surround, p->scene, frame);
     frame->exposure = p->options->exposure;
+    frame->footprint = 1 / sqrtf((float)p->frames);
     frame->light_count = r->resident.light_count;
-    frame->background_lod = 0;
     return record_and_submit(r, p, index, false);
 }

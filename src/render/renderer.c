@@ -96,6 +96,9 @@ static ag_status plan(const ag_scene *scene, const ag_camera_desc *camera,
             ag_scene_frame(scene, &orbit, (float)options->width / (float)options->height);
         camera = &automatic;
     }
+    if (!scene_camera_is_sound(camera))
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                        "the camera has a number that is not finite or out of its range");
     *p = (picture) {
         .scene = scene,
         .options = options,

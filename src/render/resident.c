@@ -9,14 +9,20 @@
 #include <math.h>
 #include <stdlib.h>
 
+// Finite whatever the scene says: infinite times nothing is not a number.
+static float bounded(float x)
+{
+    return fminf(x, 1e30f);
+}
+
 static gpu_light pack_light(const ag_light_desc *d)
 {
     vec2 cone = light_spot_cone(cosf(d->cone_inner_rad), cosf(d->cone_outer_rad));
     return (gpu_light) {
         .position = { d->position[0], d->position[1], d->position[2] },
-        .inverse_range2 = d->range_m > 0 ? 1 / (d->range_m * d->range_m) : 0,
-        .intensity = { d->color[0] * d->intensity, d->color[1] * d->intensity,
-                       d->color[2] * d->intensity },
+        .inverse_range2 = d->range_m > 0 ? bounded(1 / (d->range_m * d->range_m)) : 0,
+        .intensity = { bounded(d->color[0] * d->intensity), bounded(d->color[1] * d->intensity),
+                       bounded(d->color[2] * d->intensity) },
         .kind = d->kind == AG_LIGHT_DIRECTIONAL ? GPU_LIGHT_DIRECTIONAL
                 : d->kind == AG_LIGHT_SPOT      ? GPU_LIGHT_SPOT
                                                 : GPU_LIGHT_POINT,

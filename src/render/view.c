@@ -56,8 +56,8 @@ static void fit_depth(const ag_camera_desc *camera, const float min[3], const fl
         nearest = farthest = 1;
     v->far_m = camera->far_m > 0 ? camera->far_m : farthest * 1.01f;
     v->near_m = camera->near_m > 0 ? camera->near_m : nearest * 0.99f;
-    if (v->orthographic)
-        return; // any sign will do
+    if (camera->near_m > 0 || v->orthographic)
+        return; // an orthographic one may have any sign
     if (v->near_m < v->far_m * 1e-5f)
         v->near_m = v->far_m * 1e-5f;
 }

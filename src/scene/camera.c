@@ -14,7 +14,7 @@ static const double margin = 1.05; // empty frame around a fitted scene
 
 // ---- Added cameras ---------------------------------------------------------
 
-static bool numbers_are_sound(const ag_camera_desc *desc)
+bool scene_camera_is_sound(const ag_camera_desc *desc)
 {
     const float scalars[] = { desc->fov_y_rad, desc->height_m, desc->near_m, desc->far_m };
     return all_finite(scalars, 4) && all_finite(desc->position, 3) && all_finite(desc->target, 3) &&
@@ -35,7 +35,7 @@ ag_status ag_scene_add_camera(ag_scene *scene, const ag_camera_desc *desc, ag_ca
 {
     *camera = (ag_camera) { 0 };
     vec3 view = vec3_sub(vec3_from(desc->target), vec3_from(desc->position));
-    if (!numbers_are_sound(desc) || vec3_is_zero(vec3_unit(view)))
+    if (!scene_camera_is_sound(desc) || vec3_is_zero(vec3_unit(view)))
         return log_fail(&scene->log, AG_ERROR_ARGUMENT,
                         "A camera needs finite numbers, a target away from its position, a field "
                         "of view below pi, and near below far.");

@@ -73,6 +73,9 @@ void scene_environment_close(const ag_scene *scene, const ag_image *image); // N
 AG_CHECK ag_status scene_adopt_texture(ag_scene *scene, ag_image *image,
                                        const ag_texture_desc *desc, ag_texture *texture);
 
+// Whether a camera's numbers are finite and in their ranges.
+bool scene_camera_is_sound(const ag_camera_desc *desc);
+
 // World-space bounds of everything visible; false when there is nothing.
 bool scene_bounds(const ag_scene *scene, float min[3], float max[3]);
 

@@ -87,6 +87,26 @@ static void files_appear_whole_or_not_at_all(void **state)
     assert_int_equal(h.count, 0);
 }
 
+static void links_stay_links(void **state)
+{
+    (void)state;
+    char link[128], through[160], target[128];
+    struct stat st;
+    void *data;
+    size_t size;
+    snprintf(link, sizeof link, "%s/link", folder);
+    snprintf(through, sizeof through, "%s/through", folder);
+    snprintf(target, sizeof target, "%s/not-there-yet", folder);
+    assert_int_equal(symlink("not-there-yet", link), 0); // beside the link
+    assert_int_equal(symlink(link, through), 0);
+    assert_int_equal(file_write(NULL, through, "new", 3), AG_OK);
+    assert_int_equal(lstat(through, &st), 0);
+    assert_true(S_ISLNK(st.st_mode));
+    assert_int_equal(file_read(NULL, target, 100, &data, &size), AG_OK);
+    assert_string_equal(data, "new");
+    free(data);
+}
+
 static void files_that_cannot_be_read_are_told(void **state)
 {
     (void)state;
@@ -214,6 +234,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_appear_whole_or_not_at_all),
+        cmocka_unit_test(links_stay_links),
         cmocka_unit_test(files_that_cannot_be_read_are_told),
         cmocka_unit_test(every_task_runs_once),
         cmocka_unit_test(hashes_spread),

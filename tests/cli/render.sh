@@ -51,7 +51,7 @@ fi
 
 # Every option works, several at once to save time.
 while read -r options; do
-    "$argand" render "$triangle" -o x.png $small $options >out 2>err || fail "$options"
+    "$argand" render "$triangle" -o x.png $small --validate $options >out 2>err || fail "$options"
 done <<'END'
 --tonemap none --quality fast --env sky --env-rotation 90 --env-intensity .5
 --tonemap=reinhard --exposure=2e0 --fov 20 --orbit=-30,75,auto --verbose

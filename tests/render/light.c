@@ -319,6 +319,110 @@ static void textures_of_others_change_nothing(void **state)
     assert_close(value[1], value[0], 1e-3f);
 }
 
+static ag_texture texel(ag_scene *scene, uint8_t r, uint8_t g, uint8_t b, uint8_t a)
+{
+    const uint8_t pixel[4] = { r, g, b, a };
+    const ag_image_desc image_desc = { 1, 1, AG_FORMAT_RGBA8, pixel };
+    ag_image *image;
+    ag_texture texture;
+    OK(ag_image_create(NULL, &image_desc, &image));
+    const ag_texture_desc desc = { .image = image };
+    OK(ag_scene_add_texture(scene, &desc, &texture));
+    ag_image_destroy(image);
+    return texture;
+}
+
+// The wall's middle in a world of radiance 1.
+static float in_white_world(ag_device *device, ag_scene *scene, const ag_material_desc *material)
+{
+    stage_surround(scene, 1, 1, 1);
+    stage_show(scene, stage_quad(scene, -4, -4, 4, 4, 0, NULL), material);
+    float value = center(device, scene);
+    ag_scene_destroy(scene);
+    return value;
+}
+
+// Every channel reaches the input that glTF gives it, and no other one does.
+static void textures_feed_their_inputs(void **state)
+{
+    ag_scene *scene = stage_dark();
+    ag_material_desc m = ag_material_default();
+    m.metallic_roughness_texture.texture = texel(scene, 0, 0, 255, 0); // white metal
+    assert_close(in_white_world(*state, scene, &m), 1, 0.01f);
+
+    // Rough and white, face on: plastic sends nearly all of E / pi back, metal less.
+    for (int metal = 0; metal < 2; metal++) {
+        scene = stage_dark();
+        m.metallic_roughness_texture.texture = texel(scene, 0, 255, metal ? 255 : 0, 0);
+        stage_show(scene, stage_quad(scene, -4, -4, 4, 4, 0, NULL), &m);
+        add(scene, (ag_light_desc) { .kind = AG_LIGHT_DIRECTIONAL,
+                                     .direction = { 0, 0, -1 },
+                                     .intensity = PI_F });
+        float value = center(*state, scene);
+        assert_true(metal ? value < 0.96f : value > 0.98f);
+        ag_scene_destroy(scene);
+    }
+
+    scene = stage_dark();
+    m = ag_material_default();
+    memcpy(m.base_color, (float[4]) { 0, 0, 0, 1 }, sizeof m.base_color);
+    m.metallic_roughness_texture.texture = texel(scene, 255, 0, 0, 255); // black plastic
+    assert_close(in_white_world(*state, scene, &m), 0.04f, 0.005f); // ((1.5 - 1) / (1.5 + 1))^2
+
+    scene = stage_dark();
+    m = ag_material_default();
+    m.metallic = 0;
+    m.roughness = 0;
+    memcpy(m.base_color, (float[4]) { 0, 0, 0, 1 }, sizeof m.base_color);
+    m.specular_texture.texture = texel(scene, 255, 255, 255, 128); // half the reflectance
+    assert_close(in_white_world(*state, scene, &m), 0.02f, 0.003f);
+
+    scene = stage_dark();
+    m.specular_texture.texture.id = 0;
+    m.specular_color_texture.texture = texel(scene, 0, 188, 0, 0); // sRGB 188 is .5
+    assert_close(in_white_world(*state, scene, &m), 0.02f, 0.003f);
+
+    scene = stage_dark();
+    m = stage_matte(1);
+    m.occlusion_texture.texture = texel(scene, 128, 0, 0, 0);
+    assert_close(in_white_world(*state, scene, &m), 128 / 255.0f, 0.01f);
+
+    scene = stage_dark();
+    m = stage_matte(1);
+    m.occlusion_strength = 0.5f;
+    m.occlusion_texture.texture = texel(scene, 0, 255, 255, 255);
+    assert_close(in_white_world(*state, scene, &m), 0.5f, 0.01f);
+
+    scene = stage_dark();
+    m = stage_matte(0);
+    memcpy(m.emissive, (float[3]) { 4, 4, 4 }, sizeof m.emissive);
+    m.emissive_texture.texture = texel(scene, 0, 188, 0, 0);
+    assert_close(in_white_world(*state, scene, &m), 2, 0.02f);
+}
+
+// Parallel rays meet a flat mirror at one angle: it shows one point of the world, everywhere.
+static void orthographic_mirrors_show_one_direction(void **state)
+{
+    ag_scene *scene = stage_dark();
+    ag_image *patch = bright_towards_x();
+    const ag_environment_desc around = { .kind = AG_ENVIRONMENT_IMAGE, .image = patch };
+    OK(ag_scene_set_environment(scene, &around));
+    ag_image_destroy(patch);
+    ag_material_desc mirror = ag_material_default();
+    mirror.roughness = 0;
+    stage_show(scene, stage_quad(scene, -9, -9, 9, 9, 0, NULL), &mirror);
+    // 75 degrees off the normal the mirror shows what is 15 degrees off +X: inside the patch,
+    // whose edge would be in the picture if the rays spread.
+    const ag_camera_desc camera = { .position = { -4.83f, 0, 1.29f }, .height_m = 2 };
+    ag_image *image = stage_render(*state, scene, &camera, &linear);
+    const float *middle = stage_float(image, 32, 32), *corner = stage_float(image, 1, 1);
+    assert_true(middle[3] == 1 && corner[3] == 1);
+    assert_close(middle[0], 8, 0.2f);
+    assert_close(corner[0], middle[0], 1e-3f);
+    ag_image_destroy(image);
+    ag_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,6 +437,8 @@ int main(void)
         KIT_TEST(mirrored_instances_keep_their_light),
         KIT_TEST(sides),
         KIT_TEST(normal_maps_turn_with_their_texture),
+        KIT_TEST(textures_feed_their_inputs),
+        KIT_TEST(orthographic_mirrors_show_one_direction),
         KIT_TEST(textures_of_others_change_nothing),
     };
     return cmocka_run_group_tests(tests, kit_open, kit_close);

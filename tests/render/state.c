@@ -137,6 +137,11 @@ static void wrong_options_are_refused(void **state)
                          AG_ERROR_ARGUMENT);
         assert_null(image);
     }
+    const ag_camera_desc nowhere = { .position = { NAN, 0, 0 } };
+    ag_image *none = (ag_image *)scene;
+    assert_int_equal(ag_renderer_render(renderer, scene, &nowhere, NULL, &none, NULL),
+                     AG_ERROR_ARGUMENT);
+    assert_null(none);
     int calls = 3;
     ag_image *image;
     const ag_render_options cancelled = { .width = 32,
