@@ -2,6 +2,7 @@
 #include "gpu/memory.h"
 
 #include "base/log.h"
+#include "base/pages.h"
 
 #include <stdlib.h>
 
@@ -94,10 +95,19 @@ static ag_status block_create(gpu_device *device, VkDeviceSize size, uint32_t ty
     };
     ag_status status = gpu_check(
         device, vkAllocateMemory(device->device, &info, NULL, &block->memory), "vkAllocateMemory");
-    if (!status && mapped)
-        status = gpu_check(
-            device, vkMapMemory(device->device, block->memory, 0, VK_WHOLE_SIZE, 0, &block->mapped),
-            "vkMapMemory");
+    // A CPU device's memory is ordinary memory: the host can reach all of it.  Shared
+    // blocks are not filled to the end, and so are left in small pages.
+    bool ordinary = device->info.kind == AG_DEVICE_CPU && size != BLOCK_SIZE &&
+                    (device->memory.memoryTypes[type].propertyFlags &
+                     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT);
+    void *address = NULL;
+    if (!status && (mapped || ordinary))
+        status = gpu_check(device,
+                           vkMapMemory(device->device, block->memory, 0, VK_WHOLE_SIZE, 0, &address),
+                           "vkMapMemory");
+    if (ordinary)
+        pages_prefer_large(address, (size_t)size);
+    block->mapped = mapped ? address : NULL;
     if (status) {
         block_destroy(device, block);
         return status;

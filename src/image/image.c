@@ -2,6 +2,7 @@
 #include "image/image.h"
 
 #include "base/log.h"
+#include "base/pages.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,13 +26,15 @@ ag_status image_allocate(const ag_log *log, const char *name, uint32_t width, ui
                         "%s: an image of %u x %u pixels; between 1 and 2^28 pixels are possible",
                         name, width, height);
     ag_image *image = malloc(sizeof *image);
-    void *pixels = malloc((size_t)width * height * image_pixel_size(format));
+    size_t size = (size_t)width * height * image_pixel_size(format);
+    void *pixels = malloc(size);
     if (!image || !pixels) {
         free(image);
         free(pixels);
         return log_fail(log, AG_ERROR_MEMORY, "%s: no memory for an image of %u x %u pixels", name,
                         width, height);
     }
+    pages_prefer_large(pixels, size);
     *image = (ag_image) { width, height, format, pixels };
     *out = image;
     return AG_OK;

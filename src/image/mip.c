@@ -1,6 +1,7 @@
 // Mip chains.  Even sizes take the fast rows below; odd ones the general filter.
 #include "image/mip.h"
 
+#include "base/pages.h"
 #include "image/srgb.h"
 
 #include <math.h>
@@ -264,6 +265,7 @@ void *image_mips(const ag_image *image, image_mip_kind kind)
     uint8_t *levels = f ? malloc(bytes ? bytes : 1) : NULL;
     if (levels)
         filter_init(f, kind);
+    pages_prefer_large(levels, bytes);
     const uint8_t *in = image->pixels;
     uint8_t *out = levels;
     for (uint32_t level = 1; level < count && levels; level++) {

@@ -2,6 +2,7 @@
 #include "render/texture_jobs.h"
 
 #include "base/log.h"
+#include "base/pages.h"
 #include "base/threads.h"
 #include "image/image.h"
 #include "image/mip.h"
@@ -68,6 +69,7 @@ static void prepare(void *context, size_t index)
     job->base = l.bytes == 4 ? image->pixels : malloc(texels * l.bytes);
     if (!job->mips || !job->base || l.bytes == 4)
         return;
+    pages_prefer_large(job->base, texels * l.bytes);
     pack(&l, image->pixels, texels, job->base);
     pack(&l, job->mips, image_mip_offset(image->width, image->height, count) / 4, job->mips);
 }
