@@ -102,9 +102,9 @@ static ag_status block_create(gpu_device *device, VkDeviceSize size, uint32_t ty
                      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT);
     void *address = NULL;
     if (!status && (mapped || ordinary))
-        status = gpu_check(device,
-                           vkMapMemory(device->device, block->memory, 0, VK_WHOLE_SIZE, 0, &address),
-                           "vkMapMemory");
+        status = gpu_check(
+            device, vkMapMemory(device->device, block->memory, 0, VK_WHOLE_SIZE, 0, &address),
+            "vkMapMemory");
     if (ordinary)
         pages_prefer_large(address, (size_t)size);
     block->mapped = mapped ? address : NULL;
