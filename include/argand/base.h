@@ -14,7 +14,7 @@ extern "C" {
 #define AG_VERSION_MINOR 1
 #define AG_VERSION_PATCH 0
 
-#define AG_API   __attribute__((visibility("default")))
+#define AG_API __attribute__((visibility("default")))
 #define AG_CHECK __attribute__((visibility("default"), warn_unused_result))
 
 // How a call ended.  Whatever can fail returns one; it must be looked at.  On

@@ -27,10 +27,10 @@ typedef struct ag_device_info {
     char name[256];
     char driver[256]; // name and version
     ag_device_kind kind;
-    bool usable;            // has all that Argand needs
-    char missing[128];      // else the first thing it lacks
-    uint32_t max_size;      // px, the largest picture made without tiles
-    uint64_t memory_bytes;  // of the largest device-local heap
+    bool usable;           // has all that Argand needs
+    char missing[128];     // else the first thing it lacks
+    uint32_t max_size;     // px, the largest picture made without tiles
+    uint64_t memory_bytes; // of the largest device-local heap
 } ag_device_info;
 
 // List the Vulkan devices: up to `capacity` into `infos`, how many there are into
@@ -69,11 +69,11 @@ AG_CHECK ag_status ag_renderer_create(ag_device *device, ag_renderer **renderer)
 AG_API void ag_renderer_destroy(ag_renderer *renderer); // NULL is allowed
 
 typedef enum ag_tonemap {
-    AG_TONEMAP_NEUTRAL = 0,     // Khronos PBR Neutral
-    AG_TONEMAP_NONE,            // clip
+    AG_TONEMAP_NEUTRAL = 0, // Khronos PBR Neutral
+    AG_TONEMAP_NONE,        // clip
     AG_TONEMAP_REINHARD,
-    AG_TONEMAP_ACES,            // Hill's fit of RRT and ODT
-    AG_TONEMAP_ACES_NARKOWICZ,  // Narkowicz' curve
+    AG_TONEMAP_ACES,           // Hill's fit of RRT and ODT
+    AG_TONEMAP_ACES_NARKOWICZ, // Narkowicz' curve
     AG_TONEMAP_AGX,
 } ag_tonemap;
 

@@ -45,16 +45,15 @@ AG_API void ag_scene_destroy(ag_scene *scene); // NULL is allowed
 // ---- Filling it ------------------------------------------------------------
 
 typedef struct ag_load_options {
-    uint32_t scene;        // of a file with several, 1 = the first; 0 -> the file's default
-    ag_progress progress;  // stages "load", "decode"
+    uint32_t scene;       // of a file with several, 1 = the first; 0 -> the file's default
+    ag_progress progress; // stages "load", "decode"
 } ag_load_options;
 
 // Read a glTF 2.0 file (.gltf with its files, or .glb) and append it.  Its nodes are
 // flattened; skins and morph targets are applied in the pose that the file gives.
 // Files beside it are read only from its own folder and below.  NULL options ->
 // defaults.  AG_ERROR_UNSUPPORTED names a required extension that is not known.
-AG_CHECK ag_status ag_scene_load(ag_scene *scene, const char *path,
-                                 const ag_load_options *options);
+AG_CHECK ag_status ag_scene_load(ag_scene *scene, const char *path, const ag_load_options *options);
 
 // Append a scene that is built in ("spheres", say) with its lights and one camera, fitted
 // to square pictures; its environment replaces the one there is.  AG_ERROR_ARGUMENT for
@@ -106,14 +105,14 @@ typedef enum ag_alpha_mode {
 // _emissive_strength, _ior and _specular.  A factor that multiplies has no natural
 // zero, so start from ag_material_default().
 typedef struct ag_material_desc {
-    float base_color[4]; // linear, with alpha
+    float base_color[4];       // linear, with alpha
     float metallic, roughness; // [0, 1], perceptual roughness
     float emissive[3];         // nit, strength included
     float normal_scale;
-    float occlusion_strength;  // [0, 1]
-    float ior;                 // of the dielectric; 0 = specular everywhere 1 (KHR_materials_ior)
-    float specular;            // [0, 1]
-    float specular_color[3];   // linear, >= 0
+    float occlusion_strength; // [0, 1]
+    float ior;                // of the dielectric; 0 = specular everywhere 1 (KHR_materials_ior)
+    float specular;           // [0, 1]
+    float specular_color[3];  // linear, >= 0
     ag_alpha_mode alpha_mode;
     float alpha_cutoff;
     bool double_sided;
@@ -173,11 +172,11 @@ typedef enum ag_light_kind {
 
 typedef struct ag_light_desc {
     ag_light_kind kind;
-    float position[3];  // m, world space; ignored for AG_LIGHT_DIRECTIONAL
-    float direction[3]; // the way the light travels; 0 -> (0, 0, -1)
-    float color[3];     // linear Rec. 709 weights, >= 0; all 0 -> white
-    float intensity;    // cd (point, spot), lux (directional)
-    float range_m;      // point and spot: no light beyond; 0 -> unbounded
+    float position[3];                    // m, world space; ignored for AG_LIGHT_DIRECTIONAL
+    float direction[3];                   // the way the light travels; 0 -> (0, 0, -1)
+    float color[3];                       // linear Rec. 709 weights, >= 0; all 0 -> white
+    float intensity;                      // cd (point, spot), lux (directional)
+    float range_m;                        // point and spot: no light beyond; 0 -> unbounded
     float cone_inner_rad, cone_outer_rad; // spot, from the axis; outer 0 -> pi/4
 } ag_light_desc;
 
@@ -204,7 +203,7 @@ typedef enum ag_environment_kind {
     AG_ENVIRONMENT_STUDIO = 0, // a procedural room with soft boxes
     AG_ENVIRONMENT_SKY,        // a procedural clear sky without a sun disk
     AG_ENVIRONMENT_IMAGE,
-    AG_ENVIRONMENT_NONE,       // black
+    AG_ENVIRONMENT_NONE, // black
 } ag_environment_kind;
 
 typedef struct ag_environment_desc {
@@ -223,7 +222,7 @@ AG_CHECK ag_status ag_scene_set_environment(ag_scene *scene, const ag_environmen
 
 typedef struct ag_scene_summary {
     uint32_t meshes, materials, textures, instances, lights, cameras;
-    uint64_t vertices, triangles; // as drawn: summed over the instances
+    uint64_t vertices, triangles;       // as drawn: summed over the instances
     float bounds_min[3], bounds_max[3]; // m; all zero when nothing is visible
     double load_ms, decode_ms;          // spent in ag_scene_load so far
 } ag_scene_summary;

@@ -19,8 +19,8 @@ enum {
     FORMAT_VERSION = 3, // of what is baked: raise it when the same pixels give another result
     EDGE_MIN = 128,
     EDGE_MAX = 512,
-    EDGE_LAST = 8,       // px, of the last mip, roughness 1
-    DIFFUSE_EDGE = 32,   // px, of the level that irradiance is made from
+    EDGE_LAST = 8,     // px, of the last mip, roughness 1
+    DIFFUSE_EDGE = 32, // px, of the level that irradiance is made from
 };
 
 size_t bake_environment_mip_offset(uint32_t size, uint32_t mip)

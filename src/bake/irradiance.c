@@ -41,10 +41,10 @@ WIDE_INLINE void sum_row_body(const irradiance_job *job, size_t row)
                                                       cube_coordinate(job->size, y)));
         f32x8 red = { 0 }, green = { 0 }, blue = { 0 };
         for (size_t i = 0; i < job->count; i += 8) {
-            f32x8 cosine = wide_max(n[0] * load(job->lights[0] + i) +
-                                        n[1] * load(job->lights[1] + i) +
-                                        n[2] * load(job->lights[2] + i),
-                                    (f32x8) { 0 });
+            f32x8 cosine =
+                wide_max(n[0] * load(job->lights[0] + i) + n[1] * load(job->lights[1] + i) +
+                             n[2] * load(job->lights[2] + i),
+                         (f32x8) { 0 });
             red += cosine * load(job->lights[3] + i);
             green += cosine * load(job->lights[4] + i);
             blue += cosine * load(job->lights[5] + i);
@@ -73,8 +73,8 @@ static void gather_lights(const cube_level *level, float *lights, size_t count)
             for (uint32_t x = 0; x < level->size; x++, i++) {
                 const float *texel = cube_texel(level, face, (int32_t)x, (int32_t)y);
                 float angle = (float)cube_solid_angle(level->size, x, y);
-                vec3 d = normalize(environment_cube_direction(
-                    face, cube_coordinate(level->size, x), cube_coordinate(level->size, y)));
+                vec3 d = normalize(environment_cube_direction(face, cube_coordinate(level->size, x),
+                                                              cube_coordinate(level->size, y)));
                 for (int c = 0; c < 3; c++) {
                     lights[(size_t)c * count + i] = d[c];
                     lights[(size_t)(c + 3) * count + i] = texel[c] * angle;

@@ -16,7 +16,7 @@ const char *ag_status_name(ag_status status)
     return "unknown status";
 }
 
-#define TEXT(x)          #x
+#define TEXT(x) #x
 #define VERSION(a, b, c) TEXT(a) "." TEXT(b) "." TEXT(c)
 
 const char *ag_version(void)

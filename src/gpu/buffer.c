@@ -19,8 +19,8 @@ ag_status gpu_buffer_create(gpu_device *device, VkDeviceSize size, VkBufferUsage
     }
     if (!status)
         status = gpu_check(device,
-                           vkBindBufferMemory(device->device, buffer->buffer,
-                                              buffer->memory.memory, buffer->memory.offset),
+                           vkBindBufferMemory(device->device, buffer->buffer, buffer->memory.memory,
+                                              buffer->memory.offset),
                            "vkBindBufferMemory");
     if (status)
         gpu_buffer_destroy(device, buffer);

@@ -77,9 +77,9 @@ ag_status gpu_commands_wait(gpu_device *device, gpu_commands *commands)
     if (!commands->pending)
         return AG_OK;
     commands->pending = false;
-    ag_status status = gpu_check(
-        device, vkWaitForFences(device->device, 1, &commands->fence, VK_TRUE, UINT64_MAX),
-        "vkWaitForFences");
+    ag_status status =
+        gpu_check(device, vkWaitForFences(device->device, 1, &commands->fence, VK_TRUE, UINT64_MAX),
+                  "vkWaitForFences");
     if (status)
         return status;
     return gpu_check(device, vkResetFences(device->device, 1, &commands->fence), "vkResetFences");
@@ -90,8 +90,8 @@ ag_status gpu_commands_begin(gpu_device *device, gpu_commands *commands)
     ag_status status = gpu_commands_wait(device, commands);
     // What was recorded before may have been given up half-way.
     if (!status)
-        status = gpu_check(device, vkResetCommandBuffer(commands->buffer, 0),
-                           "vkResetCommandBuffer");
+        status =
+            gpu_check(device, vkResetCommandBuffer(commands->buffer, 0), "vkResetCommandBuffer");
     if (status)
         return status;
     const VkCommandBufferBeginInfo info = {

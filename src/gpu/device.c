@@ -143,9 +143,8 @@ static ag_status make_pools(gpu_device *device)
                   "vkCreateCommandPool");
     if (status)
         return status;
-    const VkPipelineCacheCreateInfo cache = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO
-    };
+    const VkPipelineCacheCreateInfo cache = { .sType =
+                                                  VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO };
     status = gpu_check(device,
                        vkCreatePipelineCache(device->device, &cache, NULL, &device->pipeline_cache),
                        "vkCreatePipelineCache");

@@ -21,8 +21,8 @@ static ag_status create_image(gpu_device *device, gpu_image *image)
         .tiling = VK_IMAGE_TILING_OPTIMAL,
         .usage = desc->usage,
     };
-    ag_status status = gpu_check(
-        device, vkCreateImage(device->device, &info, NULL, &image->image), "vkCreateImage");
+    ag_status status = gpu_check(device, vkCreateImage(device->device, &info, NULL, &image->image),
+                                 "vkCreateImage");
     if (status)
         return status;
     VkMemoryRequirements needs;
@@ -30,10 +30,10 @@ static ag_status create_image(gpu_device *device, gpu_image *image)
     status = gpu_memory_allocate(device, &needs, GPU_MEMORY_DEVICE, false, &image->memory);
     if (status)
         return status;
-    return gpu_check(device,
-                     vkBindImageMemory(device->device, image->image, image->memory.memory,
-                                       image->memory.offset),
-                     "vkBindImageMemory");
+    return gpu_check(
+        device,
+        vkBindImageMemory(device->device, image->image, image->memory.memory, image->memory.offset),
+        "vkBindImageMemory");
 }
 
 static ag_status create_view(gpu_device *device, gpu_image *image)

@@ -14,16 +14,14 @@ enum { GPU_DEVICES_MAX = 32 };
 
 // The physical devices, in the loader's order; at least one.
 AG_CHECK ag_status gpu_instance_devices(const ag_log *log, VkInstance instance,
-                                        VkPhysicalDevice devices[GPU_DEVICES_MAX],
-                                        uint32_t *count);
+                                        VkPhysicalDevice devices[GPU_DEVICES_MAX], uint32_t *count);
 
 // What a device is, and whether it has all that Argand needs.
 void gpu_device_describe(VkPhysicalDevice physical, ag_device_info *info);
 
 // The index of the device that `select` (see ag_device_desc) means.
 AG_CHECK ag_status gpu_device_select(const ag_log *log, const char *select,
-                                     const ag_device_info *infos, uint32_t count,
-                                     uint32_t *index);
+                                     const ag_device_info *infos, uint32_t count, uint32_t *index);
 
 // The first queue family that draws; UINT32_MAX when there is none.
 uint32_t gpu_queue_family(VkPhysicalDevice physical);

@@ -97,9 +97,9 @@ static ag_status block_create(gpu_device *device, VkDeviceSize size, uint32_t ty
         device, vkAllocateMemory(device->device, &info, NULL, &block->memory), "vkAllocateMemory");
     // A CPU device's memory is ordinary memory: the host can reach all of it.  Shared
     // blocks are not filled to the end, and so are left in small pages.
-    bool ordinary = device->info.kind == AG_DEVICE_CPU && size != BLOCK_SIZE &&
-                    (device->memory.memoryTypes[type].propertyFlags &
-                     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT);
+    bool ordinary =
+        device->info.kind == AG_DEVICE_CPU && size != BLOCK_SIZE &&
+        (device->memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT);
     void *address = NULL;
     if (!status && (mapped || ordinary))
         status = gpu_check(
@@ -150,8 +150,8 @@ ag_status gpu_memory_allocate(gpu_device *device, const VkMemoryRequirements *ne
     VkDeviceSize offset = align(block->used, needs->alignment);
     block->used = offset + needs->size;
     block->pieces++;
-    *memory = (gpu_memory) { block->memory, offset,
-                             mapped ? (char *)block->mapped + offset : NULL, block };
+    *memory = (gpu_memory) { block->memory, offset, mapped ? (char *)block->mapped + offset : NULL,
+                             block };
     return AG_OK;
 }
 

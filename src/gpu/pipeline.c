@@ -19,11 +19,11 @@ static VkPipelineColorBlendAttachmentState blend_state(gpu_blend blend)
     return (VkPipelineColorBlendAttachmentState) {
         .blendEnable = blend != GPU_BLEND_NONE,
         .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
-        .dstColorBlendFactor = blend == GPU_BLEND_OVER ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA
-                                                       : VK_BLEND_FACTOR_ONE,
+        .dstColorBlendFactor =
+            blend == GPU_BLEND_OVER ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE,
         .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-        .dstAlphaBlendFactor = blend == GPU_BLEND_OVER ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA
-                                                       : VK_BLEND_FACTOR_ONE,
+        .dstAlphaBlendFactor =
+            blend == GPU_BLEND_OVER ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE,
         .colorWriteMask = 0xf,
     };
 }
@@ -109,10 +109,10 @@ static ag_status create_pipeline(gpu_device *device, const gpu_pipeline_desc *de
         .pDynamicState = &dynamics,
         .layout = desc->layout,
     };
-    return gpu_check(device,
-                     vkCreateGraphicsPipelines(device->device, device->pipeline_cache, 1, &info,
-                                               NULL, pipeline),
-                     "vkCreateGraphicsPipelines");
+    return gpu_check(
+        device,
+        vkCreateGraphicsPipelines(device->device, device->pipeline_cache, 1, &info, NULL, pipeline),
+        "vkCreateGraphicsPipelines");
 }
 
 ag_status gpu_pipeline_create(gpu_device *device, const gpu_pipeline_desc *desc,

@@ -36,8 +36,8 @@ AG_CHECK ag_status gpu_set_layout_create(gpu_device *device,
                                          const VkDescriptorSetLayoutBinding *bindings,
                                          uint32_t count, VkDescriptorSetLayout *layout);
 
-AG_CHECK ag_status gpu_pipeline_layout_create(gpu_device *device,
-                                              const VkDescriptorSetLayout *sets, uint32_t count,
-                                              uint32_t push_bytes, VkPipelineLayout *layout);
+AG_CHECK ag_status gpu_pipeline_layout_create(gpu_device *device, const VkDescriptorSetLayout *sets,
+                                              uint32_t count, uint32_t push_bytes,
+                                              VkPipelineLayout *layout);
 
 #endif

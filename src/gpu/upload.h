@@ -30,9 +30,8 @@ void gpu_upload_image_begin(gpu_upload *upload, const gpu_image *image);
 void gpu_upload_image_end(gpu_upload *upload, const gpu_image *image);
 
 // One level of one layer, rows without padding, `texel` bytes each.
-AG_CHECK ag_status gpu_upload_image_level(gpu_upload *upload, const gpu_image *image,
-                                          uint32_t mip, uint32_t layer, uint32_t texel,
-                                          const void *data);
+AG_CHECK ag_status gpu_upload_image_level(gpu_upload *upload, const gpu_image *image, uint32_t mip,
+                                          uint32_t layer, uint32_t texel, const void *data);
 
 // Submit what is left; the device finishes it before anything submitted later.
 AG_CHECK ag_status gpu_upload_end(gpu_upload *upload);

@@ -9,10 +9,10 @@
 #include "image/image.h"
 
 typedef enum image_mip_kind {
-    IMAGE_MIP_LINEAR, // data: each of the four channels by itself
-    IMAGE_MIP_SRGB,   // colours: averaged in linear light, each by its alpha
+    IMAGE_MIP_LINEAR,      // data: each of the four channels by itself
+    IMAGE_MIP_SRGB,        // colours: averaged in linear light, each by its alpha
     IMAGE_MIP_SRGB_OPAQUE, // the same where alpha means nothing: it becomes 255
-    IMAGE_MIP_NORMAL, // tangent-space normals 2 v / 255 - 1: averaged, of unit length again
+    IMAGE_MIP_NORMAL,      // tangent-space normals 2 v / 255 - 1: averaged, of unit length again
 } image_mip_kind;
 
 // Levels of a full chain, the image itself among them: 1 + floor(log2(max(w, h))).

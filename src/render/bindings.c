@@ -3,7 +3,7 @@
 
 #include "interop/scene.glsl"
 
-#define IMAGE   VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+#define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 #define UNIFORM VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
 
 static ag_status create_layouts(gpu_device *device, bindings *b)
@@ -11,9 +11,12 @@ static ag_status create_layouts(gpu_device *device, bindings *b)
     const VkShaderStageFlags vertex = VK_SHADER_STAGE_VERTEX_BIT,
                              fragment = VK_SHADER_STAGE_FRAGMENT_BIT;
     const VkDescriptorSetLayoutBinding frame[] = {
-        { 0, UNIFORM, 1, vertex | fragment, NULL }, { 1, IMAGE, 1, fragment, NULL },
-        { 2, IMAGE, 1, fragment, NULL },            { 3, IMAGE, 1, fragment, NULL },
-        { 4, UNIFORM, 1, fragment, NULL },          { 5, IMAGE, 1, fragment, NULL },
+        { 0, UNIFORM, 1, vertex | fragment, NULL },
+        { 1, IMAGE, 1, fragment, NULL },
+        { 2, IMAGE, 1, fragment, NULL },
+        { 3, IMAGE, 1, fragment, NULL },
+        { 4, UNIFORM, 1, fragment, NULL },
+        { 5, IMAGE, 1, fragment, NULL },
     };
     VkDescriptorSetLayoutBinding material[1 + GPU_TEXTURE_COUNT] = { { 0, UNIFORM, 1, fragment,
                                                                        NULL } };
@@ -23,8 +26,7 @@ static ag_status create_layouts(gpu_device *device, bindings *b)
 
     ag_status status = gpu_set_layout_create(device, frame, 6, &b->frame_set);
     if (!status)
-        status =
-            gpu_set_layout_create(device, material, 1 + GPU_TEXTURE_COUNT, &b->material_set);
+        status = gpu_set_layout_create(device, material, 1 + GPU_TEXTURE_COUNT, &b->material_set);
     if (!status)
         status = gpu_set_layout_create(device, picture, 1, &b->picture_set);
     const VkDescriptorSetLayout surfaces[] = { b->frame_set, b->material_set };
@@ -48,8 +50,8 @@ static ag_status create_samplers(gpu_device *device, bindings *b)
         .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
         .maxLod = VK_LOD_CLAMP_NONE,
     };
-    ag_status status = gpu_check(
-        device, vkCreateSampler(device->device, &info, NULL, &b->linear), "vkCreateSampler");
+    ag_status status = gpu_check(device, vkCreateSampler(device->device, &info, NULL, &b->linear),
+                                 "vkCreateSampler");
     info.addressModeU = VK_SAMPLER_ADDRESS_MODE_REPEAT;
     if (!status)
         status = gpu_check(device, vkCreateSampler(device->device, &info, NULL, &b->panorama),

@@ -85,9 +85,9 @@ static bool is_mirrored(const float w[16])
 static int compare(const void *a, const void *b)
 {
     const candidate *x = a, *y = b;
-#define BY(field)             \
-    if (x->field != y->field) \
-        return x->field < y->field ? -1 : 1
+#define BY(field)                                                                                  \
+    if (x->field != y->field)                                                                      \
+    return x->field < y->field ? -1 : 1
     BY(group);
     if (x->group == AG_ALPHA_BLEND) {
         if (x->depth != y->depth)

@@ -19,7 +19,7 @@ typedef struct draw {
 typedef struct draws {
     draw *items;
     uint32_t count;
-    uint32_t opaque_count;  // of items, those before the background: opaque and cut-out
+    uint32_t opaque_count; // of items, those before the background: opaque and cut-out
     uint32_t instance_count;
     uint64_t triangles;
     gpu_instance *instances; // in drawing order

@@ -87,8 +87,8 @@ static ag_status record_draws(ag_renderer *r, const picture *p, uint32_t first, 
         }
         const geometry_range *range = &r->resident.geometry.ranges[d->mesh];
         vkCmdSetCullMode(cmd, d->cull);
-        vkCmdSetFrontFace(cmd, d->mirrored ? VK_FRONT_FACE_CLOCKWISE
-                                           : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        vkCmdSetFrontFace(cmd,
+                          d->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
         vkCmdDrawIndexed(cmd, warm_up ? 3 : range->index_count, warm_up ? 1 : d->instance_count,
                          range->first_index, range->first_vertex, d->first_instance);
     }
@@ -141,8 +141,7 @@ static float4 backdrop(const picture *p)
 }
 
 static void begin_rendering(VkCommandBuffer cmd, const targets *t, VkImageView color,
-                            VkImageView resolve, bool depth, VkAttachmentLoadOp load,
-                            float4 clear)
+                            VkImageView resolve, bool depth, VkAttachmentLoadOp load, float4 clear)
 {
     const VkRenderingAttachmentInfo color_info = {
         .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
@@ -246,10 +245,9 @@ static ag_status record_resolve(ag_renderer *r, const picture *p, uint32_t index
         return status;
     gpu_barrier_image(&r->commands, &t->picture, dropped, GPU_ACCESS_COLOR);
     bool linear = p->options->format == AG_FORMAT_RGBA32F;
-    return record_pass(r, PIPELINE_RESOLVE,
-                       linear ? GPU_TONE_LINEAR : (uint32_t)p->options->tonemap,
-                       t->desc.sum ? r->bindings.sum : r->bindings.picture, &t->picture, false,
-                       warm_up, push);
+    return record_pass(
+        r, PIPELINE_RESOLVE, linear ? GPU_TONE_LINEAR : (uint32_t)p->options->tonemap,
+        t->desc.sum ? r->bindings.sum : r->bindings.picture, &t->picture, false, warm_up, push);
 }
 
 // ---- Frames ------------------------------------------------------------------

@@ -43,8 +43,8 @@ static ag_status lay_out(const ag_scene *scene, geometry *g, uint64_t *vertices,
                         scene->meshes_count);
     for (size_t i = 0; i < scene->meshes_count; i++) {
         const scene_mesh *mesh = &scene->meshes[i];
-        g->ranges[i] = (geometry_range) { (uint32_t)*indices, mesh->index_count,
-                                          (int32_t)*vertices };
+        g->ranges[i] =
+            (geometry_range) { (uint32_t)*indices, mesh->index_count, (int32_t)*vertices };
         *vertices += mesh->vertex_count;
         *indices += mesh->index_count;
     }
@@ -77,15 +77,15 @@ ag_status geometry_create(gpu_device *device, const ag_scene *scene, gpu_upload 
     uint64_t vertices = 0, indices = 0;
     ag_status status = lay_out(scene, g, &vertices, &indices);
     if (!status)
-        status = gpu_buffer_create(
-            device, vertices * sizeof(scene_vertex),
-            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_MEMORY_DEVICE,
-            &g->vertices);
+        status =
+            gpu_buffer_create(device, vertices * sizeof(scene_vertex),
+                              VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                              GPU_MEMORY_DEVICE, &g->vertices);
     if (!status)
-        status = gpu_buffer_create(
-            device, indices * 4,
-            VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_MEMORY_DEVICE,
-            &g->indices);
+        status =
+            gpu_buffer_create(device, indices * 4,
+                              VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                              GPU_MEMORY_DEVICE, &g->indices);
     return status ? status : fill(scene, upload, g);
 }
 

@@ -18,8 +18,8 @@ static uint32_t textures_of(const ag_material_desc *material)
 
 static bool is_plain(const ag_texture_use *use)
 {
-    bool unscaled = (use->scale[0] == 0 && use->scale[1] == 0) ||
-                    (use->scale[0] == 1 && use->scale[1] == 1);
+    bool unscaled =
+        (use->scale[0] == 0 && use->scale[1] == 0) || (use->scale[0] == 1 && use->scale[1] == 1);
     return use->uv_set == 0 && unscaled && use->rotation_rad == 0 && use->offset[0] == 0 &&
            use->offset[1] == 0;
 }
@@ -47,7 +47,7 @@ static uint32_t alpha_mode(ag_alpha_mode mode)
 void materials_classify(const ag_scene *scene, gpu_surface_constants *constants)
 {
     gpu_surface_constants unions[3][2][2] = { 0 }; // [alpha mode][unlit][has textures]
-    for (int pass = 0; pass < 2; pass++) // first gather, then hand out
+    for (int pass = 0; pass < 2; pass++)           // first gather, then hand out
         for (size_t i = 0; i < scene->materials_count; i++) {
             const ag_material_desc *material = &scene->materials[i];
             uint32_t bits = textures_of(material), mode = alpha_mode(material->alpha_mode);
@@ -113,8 +113,7 @@ static ag_status fill_set(gpu_device *device, const ag_scene *scene, textures *t
                           VkDeviceSize stride, materials *m)
 {
     const ag_material_desc *desc = &scene->materials[index];
-    gpu_material *packed =
-        (gpu_material *)((char *)m->uniforms.memory.mapped + stride * index);
+    gpu_material *packed = (gpu_material *)((char *)m->uniforms.memory.mapped + stride * index);
     *packed = pack(desc);
     bindings_write_buffer(device, m->sets[index], 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                           m->uniforms.buffer, stride * index, sizeof(gpu_material));
@@ -144,9 +143,8 @@ ag_status materials_create(gpu_device *device, const bindings *b, const ag_scene
         return log_fail(&device->log, AG_ERROR_MEMORY, "no memory for %u materials", count);
     }
     materials_classify(scene, m->constants);
-    ag_status status =
-        gpu_buffer_create(device, stride * count, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                          GPU_MEMORY_UPLOAD, &m->uniforms);
+    ag_status status = gpu_buffer_create(device, stride * count, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                         GPU_MEMORY_UPLOAD, &m->uniforms);
     if (!status)
         status = create_pool(device, count, m);
     for (uint32_t i = 0; i < count && !status; i++) {

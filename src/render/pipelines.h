@@ -15,8 +15,8 @@ typedef enum pipeline_kind {
 
 // What tells pipelines apart.  Compared byte by byte: no padding.
 typedef struct pipeline_key {
-    uint32_t kind;   // pipeline_kind
-    uint32_t format; // VkFormat drawn into
+    uint32_t kind;                   // pipeline_kind
+    uint32_t format;                 // VkFormat drawn into
     gpu_surface_constants constants; // but for surfaces, only .tone and .samples count
 } pipeline_key;
 

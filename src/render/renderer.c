@@ -92,8 +92,7 @@ static ag_status plan(const ag_scene *scene, const ag_camera_desc *camera,
     ag_camera_desc automatic;
     if (!camera) {
         ag_orbit orbit = ag_orbit_auto();
-        automatic =
-            ag_scene_frame(scene, &orbit, (float)options->width / (float)options->height);
+        automatic = ag_scene_frame(scene, &orbit, (float)options->width / (float)options->height);
         camera = &automatic;
     }
     if (!scene_camera_is_sound(camera))
@@ -115,9 +114,9 @@ static ag_status plan(const ag_scene *scene, const ag_camera_desc *camera,
 
 static ag_status upload_instances(ag_renderer *r, const draws *d)
 {
-    ag_status status = gpu_buffer_ensure(r->device, d->instance_count * sizeof(gpu_instance),
-                                         VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, GPU_MEMORY_UPLOAD,
-                                         &r->instances);
+    ag_status status =
+        gpu_buffer_ensure(r->device, d->instance_count * sizeof(gpu_instance),
+                          VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, GPU_MEMORY_UPLOAD, &r->instances);
     if (!status)
         memcpy(r->instances.memory.mapped, d->instances, d->instance_count * sizeof(gpu_instance));
     return status;

@@ -81,8 +81,7 @@ static ag_status make_things(ag_renderer *renderer, const ag_scene *scene, bool 
     if (!status)
         status = textures_create(device, scene, release, upload, &r->textures);
     if (!status)
-        status =
-            materials_create(device, &renderer->bindings, scene, &r->textures, &r->materials);
+        status = materials_create(device, &renderer->bindings, scene, &r->textures, &r->materials);
     return status ? status : make_lights(device, scene, r);
 }
 
@@ -120,9 +119,8 @@ static ag_status make_surround(ag_renderer *renderer, const ag_scene *scene, boo
     double opened = clock_ms() - start;
     if (status)
         return status;
-    status = surround_create(renderer->device, equirect, shown, upload,
-                             &stats->environment_cached, &stats->bake_ms,
-                             &renderer->resident.surround);
+    status = surround_create(renderer->device, equirect, shown, upload, &stats->environment_cached,
+                             &stats->bake_ms, &renderer->resident.surround);
     stats->bake_ms += opened;
     scene_environment_close(scene, equirect);
     return status;

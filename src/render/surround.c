@@ -66,9 +66,8 @@ static ag_status upload_image(gpu_device *device, gpu_upload *upload, const ag_i
     size_t values = (size_t)equirect->width * equirect->height * 4;
     if (equirect->width > device->info.max_size || equirect->height > device->info.max_size)
         return log_fail(&device->log, AG_ERROR_UNSUPPORTED,
-                        "an environment of %ux%u pixels is more than the %u of %s",
-                        equirect->width, equirect->height, device->info.max_size,
-                        device->info.name);
+                        "an environment of %ux%u pixels is more than the %u of %s", equirect->width,
+                        equirect->height, device->info.max_size, device->info.name);
     uint16_t *halves = malloc(values * sizeof *halves);
     if (!halves)
         return log_fail(&device->log, AG_ERROR_MEMORY, "no memory for the environment");

@@ -8,11 +8,11 @@
 #include "interop/scene.glsl"
 
 typedef struct surround {
-    bool present;      // false: black, and the images are stand-ins
-    gpu_image cube;    // prefiltered
+    bool present;         // false: black, and the images are stand-ins
+    gpu_image cube;       // prefiltered
     gpu_image irradiance; // cube of irradiance / pi
-    gpu_image image;   // equirectangular; a stand-in until it is needed
-    bool image_wanted; // the image is the real one
+    gpu_image image;      // equirectangular; a stand-in until it is needed
+    bool image_wanted;    // the image is the real one
     gpu_image dfg;
     float sh[9][3];
 } surround;

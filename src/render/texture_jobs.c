@@ -29,10 +29,8 @@ static layout layout_of(texture_kind kind)
         return (layout) { IMAGE_MIP_SRGB, VK_FORMAT_R8G8B8A8_SRGB, 4, 0, { 0 } };
     case TEXTURE_ROUGHNESS_METALLIC:
         return (layout) { IMAGE_MIP_LINEAR, VK_FORMAT_R8G8_UNORM, 2, 1, { one, r, g, one } };
-    case TEXTURE_NORMAL:
-        return (layout) { IMAGE_MIP_NORMAL, VK_FORMAT_R8G8_UNORM, 2, 0, { 0 } };
-    case TEXTURE_OCCLUSION:
-        return (layout) { IMAGE_MIP_LINEAR, VK_FORMAT_R8_UNORM, 1, 0, { 0 } };
+    case TEXTURE_NORMAL: return (layout) { IMAGE_MIP_NORMAL, VK_FORMAT_R8G8_UNORM, 2, 0, { 0 } };
+    case TEXTURE_OCCLUSION: return (layout) { IMAGE_MIP_LINEAR, VK_FORMAT_R8_UNORM, 1, 0, { 0 } };
     case TEXTURE_SPECULAR:
         return (layout) { IMAGE_MIP_LINEAR, VK_FORMAT_R8_UNORM, 1, 3, { one, one, one, r } };
     case TEXTURE_KINDS: break;
@@ -121,8 +119,8 @@ static int by_image(const void *a, const void *b)
     return x->image != y->image ? (x->image < y->image ? -1 : 1) : (int)x->kind - (int)y->kind;
 }
 
-ag_status texture_jobs_run(gpu_device *device, gpu_upload *upload, bool release,
-                           texture_job *jobs, size_t count)
+ag_status texture_jobs_run(gpu_device *device, gpu_upload *upload, bool release, texture_job *jobs,
+                           size_t count)
 {
     size_t batch = threads_available();
     ag_status status = AG_OK;

@@ -135,10 +135,8 @@ static ag_status upload_stand_ins(gpu_device *device, gpu_upload *upload, textur
 {
     static const uint8_t white[4] = { 255, 255, 255, 255 };
     static const uint16_t flat[2] = { 0x3800, 0x3800 }; // .5, which no byte is
-    ag_status status =
-        upload_texel(device, upload, VK_FORMAT_R8G8B8A8_UNORM, white, &t->white);
-    return status ? status
-                  : upload_texel(device, upload, VK_FORMAT_R16G16_SFLOAT, flat, &t->flat);
+    ag_status status = upload_texel(device, upload, VK_FORMAT_R8G8B8A8_UNORM, white, &t->white);
+    return status ? status : upload_texel(device, upload, VK_FORMAT_R16G16_SFLOAT, flat, &t->flat);
 }
 
 ag_status textures_create(gpu_device *device, const ag_scene *scene, bool release,
@@ -210,8 +208,7 @@ static ag_status sampler_for(gpu_device *device, textures *t, const ag_texture_d
         .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
         .magFilter = filter_of(desc->mag),
         .minFilter = filter_of(desc->min),
-        .mipmapMode =
-            blend_mips ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+        .mipmapMode = blend_mips ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
         .addressModeU = address_mode(desc->wrap_u),
         .addressModeV = address_mode(desc->wrap_v),
         .addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT,
@@ -221,8 +218,8 @@ static ag_status sampler_for(gpu_device *device, textures *t, const ag_texture_d
         // there are no mips: Vulkan 1.3, VkSamplerCreateInfo, note on OpenGL's filters.
         .maxLod = desc->no_mips ? 0.25f : VK_LOD_CLAMP_NONE,
     };
-    ag_status status = gpu_check(device, vkCreateSampler(device->device, &info, NULL, sampler),
-                                 "vkCreateSampler");
+    ag_status status =
+        gpu_check(device, vkCreateSampler(device->device, &info, NULL, sampler), "vkCreateSampler");
     if (status)
         return status;
     t->samplers[t->sampler_count] = *sampler;

@@ -9,8 +9,8 @@
 #include "scene/scene.h"
 
 typedef enum texture_kind {
-    TEXTURE_COLOR,       // sRGB-coded; alpha means nothing
-    TEXTURE_COLOR_ALPHA, // sRGB-coded, with alpha
+    TEXTURE_COLOR,              // sRGB-coded; alpha means nothing
+    TEXTURE_COLOR_ALPHA,        // sRGB-coded, with alpha
     TEXTURE_ROUGHNESS_METALLIC, // G, B
     TEXTURE_NORMAL,             // R, G; the third follows from the length
     TEXTURE_OCCLUSION,          // R

@@ -24,8 +24,8 @@ typedef struct scene_mesh {
 } scene_mesh;
 
 typedef struct scene_texture {
-    ag_image *image;       // shared between textures: see scene->images
-    ag_texture_desc desc;  // its `image` is NULL
+    ag_image *image;      // shared between textures: see scene->images
+    ag_texture_desc desc; // its `image` is NULL
 } scene_texture;
 
 typedef struct scene_instance {
@@ -39,8 +39,8 @@ typedef struct scene_extension {
     bool required, supported;
 } scene_extension;
 
-#define SCENE_ARRAY(type, name) \
-    type *name;                 \
+#define SCENE_ARRAY(type, name)                                                                    \
+    type *name;                                                                                    \
     size_t name##_count, name##_capacity
 
 struct ag_scene {
@@ -50,7 +50,7 @@ struct ag_scene {
     SCENE_ARRAY(ag_material_desc, materials); // [0] is the default material, id 0
     SCENE_ARRAY(scene_mesh, meshes);
     SCENE_ARRAY(scene_instance, instances);
-    SCENE_ARRAY(ag_light_desc, lights); // defaults filled in, direction normalised
+    SCENE_ARRAY(ag_light_desc, lights);   // defaults filled in, direction normalised
     SCENE_ARRAY(ag_camera_desc, cameras); // defaults filled in, name owned
     SCENE_ARRAY(scene_extension, extensions);
     ag_environment_kind environment_kind;

@@ -157,9 +157,8 @@ static void gpu_agrees_with_c(void **state)
 {
     rig r = { .device = *state };
     const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    assert_int_equal(gpu_buffer_create(r.device, CASES_INPUTS * 16, storage, GPU_MEMORY_UPLOAD,
-                                       &r.in),
-                     AG_OK);
+    assert_int_equal(
+        gpu_buffer_create(r.device, CASES_INPUTS * 16, storage, GPU_MEMORY_UPLOAD, &r.in), AG_OK);
     assert_int_equal(gpu_buffer_create(r.device, (VkDeviceSize)CASES_INPUTS * cases_count() * 4,
                                        storage, GPU_MEMORY_READBACK, &r.out),
                      AG_OK);

@@ -26,9 +26,9 @@ static void every_pixel_is_in_its_place(void **state)
         const ag_camera_desc camera = { .position = { eye_x[i], 0, 5 },
                                         .target = { eye_x[i], 0, 0 },
                                         .height_m = 2 };
-        const ag_render_options options = {
-            .width = widths[i], .height = 37, .format = AG_FORMAT_RGBA32F
-        };
+        const ag_render_options options = { .width = widths[i],
+                                            .height = 37,
+                                            .format = AG_FORMAT_RGBA32F };
         ag_image *image = stage_render(*state, scene, &camera, &options);
         float width_m = 2.0f * (float)widths[i] / 37;
         for (uint32_t x = 0; x < widths[i]; x += 7)
@@ -192,9 +192,9 @@ static void textures_lie_as_told(void **state)
     const ag_image_desc image_desc = { 2, 2, AG_FORMAT_RGBA8, texels };
     const ag_texture_use uses[] = {
         { .uv_set = 0 },
-        { .offset = { 0.5f, 0 } },                       // shifted by a texel to the left
-        { .rotation_rad = 1.57079633f }, // about the upper left corner, u' = v, v' = -u
-        { .scale = { -1, 1 }, .offset = { 1, 0 } },      // mirrored
+        { .offset = { 0.5f, 0 } },                  // shifted by a texel to the left
+        { .rotation_rad = 1.57079633f },            // about the upper left corner, u' = v, v' = -u
+        { .scale = { -1, 1 }, .offset = { 1, 0 } }, // mirrored
     };
     // The colour at a quarter of the wall from its upper left corner.
     const uint8_t *wanted[] = { texels[0], texels[1], texels[2], texels[1] };
@@ -203,10 +203,9 @@ static void textures_lie_as_told(void **state)
         ag_image *image;
         ag_texture texture;
         OK(ag_image_create(NULL, &image_desc, &image));
-        const ag_texture_desc desc = { .image = image,
-                                       .mag = AG_FILTER_NEAREST,
-                                       .min = AG_FILTER_NEAREST,
-                                       .no_mips = true };
+        const ag_texture_desc desc = {
+            .image = image, .mag = AG_FILTER_NEAREST, .min = AG_FILTER_NEAREST, .no_mips = true
+        };
         OK(ag_scene_add_texture(scene, &desc, &texture));
         ag_image_destroy(image);
         ag_material_desc m = stage_unlit(1, 1, 1, 1);
@@ -250,14 +249,10 @@ static void minified_colours_keep_their_light(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        KIT_TEST(every_pixel_is_in_its_place),
-        KIT_TEST(bytes_are_tone_mapped_and_coded),
-        KIT_TEST(edges_are_straight_alpha),
-        KIT_TEST(colours_lie_under_the_picture),
-        KIT_TEST(panes_blend_back_to_front),
-        KIT_TEST(walls_hide_panes),
-        KIT_TEST(cut_outs_end_at_the_cutoff),
-        KIT_TEST(textures_lie_as_told),
+        KIT_TEST(every_pixel_is_in_its_place),       KIT_TEST(bytes_are_tone_mapped_and_coded),
+        KIT_TEST(edges_are_straight_alpha),          KIT_TEST(colours_lie_under_the_picture),
+        KIT_TEST(panes_blend_back_to_front),         KIT_TEST(walls_hide_panes),
+        KIT_TEST(cut_outs_end_at_the_cutoff),        KIT_TEST(textures_lie_as_told),
         KIT_TEST(minified_colours_keep_their_light),
     };
     return cmocka_run_group_tests(tests, kit_open, kit_close);

@@ -100,8 +100,7 @@ static inline ag_camera_desc stage_flat_camera(void)
 }
 
 static inline ag_image *stage_render(ag_device *device, const ag_scene *scene,
-                                     const ag_camera_desc *camera,
-                                     const ag_render_options *options)
+                                     const ag_camera_desc *camera, const ag_render_options *options)
 {
     ag_renderer *renderer;
     ag_image *image;

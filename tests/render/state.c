@@ -144,10 +144,9 @@ static void wrong_options_are_refused(void **state)
     assert_null(none);
     int calls = 3;
     ag_image *image;
-    const ag_render_options cancelled = { .width = 32,
-                                          .height = 32,
-                                          .quality = AG_QUALITY_BEST,
-                                          .progress = { stop, &calls } };
+    const ag_render_options cancelled = {
+        .width = 32, .height = 32, .quality = AG_QUALITY_BEST, .progress = { stop, &calls }
+    };
     assert_int_equal(ag_renderer_render(renderer, scene, NULL, &cancelled, &image, NULL),
                      AG_ERROR_CANCELLED);
     assert_null(image);
@@ -158,10 +157,8 @@ static void wrong_options_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        KIT_TEST(pictures_do_not_depend_on_history),
-        KIT_TEST(changes_are_seen),
-        KIT_TEST(an_empty_scene_is_its_environment),
-        KIT_TEST(a_failed_upload_leaves_nothing),
+        KIT_TEST(pictures_do_not_depend_on_history), KIT_TEST(changes_are_seen),
+        KIT_TEST(an_empty_scene_is_its_environment), KIT_TEST(a_failed_upload_leaves_nothing),
         KIT_TEST(wrong_options_are_refused),
     };
     return cmocka_run_group_tests(tests, kit_open, kit_close);

@@ -102,11 +102,11 @@ static void odd_cameras_are_finite(void **state)
 {
     (void)state;
     const ag_camera_desc cameras[] = {
-        { .position = { 0, 5, 0 } },                                  // straight down
-        { .position = { 0, 0, 0 } },                                  // on its target
-        { .position = { 0, 0, 9 }, .target = { 0, 0, 20 } },          // looking away
-        { .position = { 0, 0, 5 }, .near_m = 3, .far_m = 3 },         // no depth
-        { .position = { 1e6f, 0, 0 }, .up = { 1, 0, 0 } },            // far, up along the ray
+        { .position = { 0, 5, 0 } },                          // straight down
+        { .position = { 0, 0, 0 } },                          // on its target
+        { .position = { 0, 0, 9 }, .target = { 0, 0, 20 } },  // looking away
+        { .position = { 0, 0, 5 }, .near_m = 3, .far_m = 3 }, // no depth
+        { .position = { 1e6f, 0, 0 }, .up = { 1, 0, 0 } },    // far, up along the ray
     };
     for (size_t i = 0; i < sizeof cameras / sizeof *cameras; i++) {
         view v = view_make(&cameras[i], 64, 64, low, high);

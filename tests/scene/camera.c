@@ -78,7 +78,7 @@ static void test_orbit_formula(void **state)
     assert_true(camera.fov_y_rad == 0.5f && camera.height_m == 0.0f);
     const float y[3] = { 0, 1, 0 };
     assert_true(dot3(camera.up, y) > 0); // upright
-    orbit.radius_m = 0; // on the target, looking the same way
+    orbit.radius_m = 0;                  // on the target, looking the same way
     camera = ag_scene_frame(scene, &orbit, 1.5f);
     assert_true(camera.position[0] == 1 && camera.position[1] == 2 && camera.position[2] == 3);
     assert_near(camera.position[1] - camera.target[1], cos(1.1), 1e-5);
