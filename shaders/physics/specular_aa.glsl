@@ -15,11 +15,4 @@ static inline real specular_aa_alpha2(real alpha2, vec3 dndx, vec3 dndy)
     return min(alpha2 + min(2.0f * variance, 0.18f), 1.0f);
 }
 
-// The same for perceptual roughness.
-static inline real specular_aa_roughness(real roughness, vec3 dndx, vec3 dndy)
-{
-    real r2 = roughness * roughness;
-    return sqrt(sqrt(specular_aa_alpha2(r2 * r2, dndx, dndy)));
-}
-
 #endif

@@ -76,7 +76,7 @@ static inline real physics_case(uint id, vec4 u)
     case 16u: return case_mark(surface_direct(case_surface(u), up, wo, wi));
     case 17u: return case_mark(surface_environment(case_surface(u), color, bright));
     case 18u: return specular_aa_alpha2(u[0], 0.3f * wo, 0.2f * wi);
-    case 19u: return specular_aa_roughness(0.05f + 0.9f * u[0], 0.3f * wo, 0.2f * wi);
+    case 19u: return specular_aa_alpha2(0.01f * u[0], 0.03f * wo, 0.02f * wi);
     case 20u: return light_point(0.1f + 20.0f * u[0], 0.0f);
     case 21u: return light_point(0.1f + 20.0f * u[0], 0.01f + 0.1f * u[1]);
     case 22u: return light_spot(u[0], light_spot_cone(0.6f + 0.4f * u[1], 0.5f * u[2]));
