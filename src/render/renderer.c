@@ -258,6 +258,27 @@ ag_status ag_renderer_take(ag_renderer *r, ag_scene *scene, double *upload_ms)
     return resident_things(r, scene, true, upload_ms);
 }
 
+// For those who want to hear what was chosen.
+static void tell_choices(const ag_renderer *r, const picture *p, const ag_render_stats *stats)
+{
+    const ag_log *log = &r->device->log;
+    const view *v = &p->view;
+    log_write(log, AG_LOG_INFO, "camera: at %g %g %g m, looking along %g %g %g, %s",
+              (double)v->eye[0], (double)v->eye[1], (double)v->eye[2], (double)v->forward[0],
+              (double)v->forward[1], (double)v->forward[2],
+              v->orthographic ? "orthographic" : "perspective");
+    log_write(log, AG_LOG_INFO, "environment: %s",
+              !r->resident.surround.present ? "none"
+              : stats->environment_cached   ? "found in the cache"
+                                            : "prepared");
+    log_write(log, AG_LOG_INFO,
+              "drawn: %u instances in %u draws, %llu triangles, %u lights, %u tile%s, %u "
+              "sample%s a pixel",
+              stats->instances, stats->draws, (unsigned long long)stats->triangles,
+              r->resident.light_count, stats->tiles, stats->tiles == 1 ? "" : "s", stats->samples,
+              stats->samples == 1 ? "" : "s");
+}
+
 ag_status ag_renderer_render(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,
                              const ag_render_options *options, ag_image **image,
                              ag_render_stats *stats)
@@ -279,6 +300,8 @@ ag_status ag_renderer_render(ag_renderer *r, const ag_scene *scene, const ag_cam
     stats->triangles = p.draws.triangles;
     stats->samples = p.frames * (checked.quality == AG_QUALITY_DEFAULT ? 4 : 1);
     status = render(r, &p, image, stats);
+    if (!status)
+        tell_choices(r, &p, stats);
     draws_finish(&p.draws);
     return status;
 }
