@@ -24,6 +24,17 @@ static inline vec2 sampling_hammersley(uint i, uint count)
     return vec2((to_real(i) + 0.5f) / to_real(count), sampling_van_der_corput(i));
 }
 
+// A point of a Gaussian about 0 in the plane, none beyond `cut`: Box & Muller 1958, with the
+// radius cut by the inverse of its distribution.  A picture's filter that is sampled so needs
+// no weights: Ernst, Stamminger & Greiner 2006.
+static inline vec2 sampling_gaussian(vec2 u, real deviation, real cut)
+{
+    real within = 1.0f - exp(-cut * cut / (2.0f * deviation * deviation));
+    real r = deviation * sqrt(-2.0f * log(1.0f - within * u[0]));
+    real phi = 2.0f * PI * u[1];
+    return vec2(r * cos(phi), r * sin(phi));
+}
+
 // Density cos / pi.
 static inline vec3 sampling_cosine(vec2 u)
 {

@@ -271,20 +271,16 @@ ag_status frame_warm_up(ag_renderer *r, const picture *p)
     return record_and_submit(r, p, 0, true);
 }
 
-// Where frame `index` samples its pixels: by a Gaussian filter of .47 px standard
-// deviation, cut at 1.5 px; a filter that is sampled needs no weights.
+// Where frame `index` samples its pixels: a Gaussian filter of .47 px standard deviation, cut
+// at 1.5 px.
 static void jitter(uint32_t index, uint32_t frames, float out[2])
 {
     out[0] = out[1] = 0;
     if (frames == 1)
         return;
-    vec2 u = sampling_hammersley(index, frames);
-    const float deviation = 0.47f, cut = 1.5f;
-    float full = 1 - expf(-cut * cut / (2 * deviation * deviation));
-    float radius = deviation * sqrtf(-2 * logf(1 - full * u[0]));
-    float angle = 2 * PI * u[1];
-    out[0] = radius * cosf(angle);
-    out[1] = radius * sinf(angle);
+    vec2 at = sampling_gaussian(sampling_hammersley(index, frames), 0.47f, 1.5f);
+    out[0] = at[0];
+    out[1] = at[1];
 }
 
 ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t index)

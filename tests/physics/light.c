@@ -295,6 +295,28 @@ static void dominant_direction_is_the_mean(void **state)
     assert_true(sqrt(squares / cells) < 0.03);
 }
 
+// Mean 0; per axis the variance of a Gaussian whose radius is cut at c, from the integral of
+// r^3 exp(-r^2 / 2 s^2): s^2 (1 - q e^-q / (1 - e^-q)) with q = c^2 / 2 s^2; none beyond c.
+static void gaussian_points_have_their_variance(void **state)
+{
+    (void)state;
+    enum { POINTS = 4096 };
+    const double s = 0.47, c = 0.8, q = c * c / (2 * s * s);
+    double sum[2] = { 0 }, square[2] = { 0 };
+    for (uint i = 0; i < POINTS; i++) {
+        vec2 p = sampling_gaussian(sampling_hammersley(i, POINTS), 0.47f, 0.8f);
+        for (int k = 0; k < 2; k++) {
+            sum[k] += (double)p[k] / POINTS;
+            square[k] += (double)p[k] * (double)p[k] / POINTS;
+        }
+        assert_true((double)(p[0] * p[0] + p[1] * p[1]) <= c * c * 1.00001);
+    }
+    for (int k = 0; k < 2; k++) {
+        assert_near(sum[k], 0.0, 1e-3);
+        assert_near(square[k], s * s * (1 - q * exp(-q) / (1 - exp(-q))), 1e-3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -304,6 +326,7 @@ int main(void)
         cmocka_unit_test(point_lights_fall_off),
         cmocka_unit_test(spot_lights_have_their_cone),
         cmocka_unit_test(normals_spread_into_roughness),
+        cmocka_unit_test(gaussian_points_have_their_variance),
         cmocka_unit_test(harmonics_are_orthonormal),
         cmocka_unit_test(harmonics_give_the_irradiance),
         cmocka_unit_test(directions_map_to_the_image_and_back),
