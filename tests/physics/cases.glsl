@@ -3,6 +3,7 @@
 #ifndef TESTS_PHYSICS_CASES_GLSL
 #define TESTS_PHYSICS_CASES_GLSL
 
+#include "physics/ambient.glsl"
 #include "physics/color.glsl"
 #include "physics/diffuse.glsl"
 #include "physics/environment.glsl"
@@ -16,7 +17,7 @@
 #include "physics/surface.glsl"
 #include "physics/tonemap.glsl"
 
-#define CASE_COUNT 44u
+#define CASE_COUNT 46u
 
 // A vector's components told apart.
 static inline real case_mark(vec3 v)
@@ -43,6 +44,18 @@ static inline surface case_surface(vec4 u)
     m.specular_color = vec3(u[3], u[2], u[1]);
     m.specular = u[2];
     return surface_from_metallic_roughness(m, vec2(0.3f + 0.5f * u[1], 0.2f * u[3]));
+}
+
+static inline ambient_light case_ambient(vec4 u)
+{
+    vec3 color = vec3(u[0], u[1], u[2]);
+    ambient_light a = ambient_from_hemispheric(color, 0.5f * color, case_direction(u[2], u[3]));
+    a.cxy = 0.1f * color;
+    a.cyz = 0.2f * color;
+    a.czz = 0.3f * color;
+    a.cxz = 0.4f * color;
+    a.cxxyy = 0.5f * color;
+    return a;
 }
 
 // `id` below CASE_COUNT; the components of u lie in [0, 1).
@@ -106,6 +119,8 @@ static inline real physics_case(uint id, vec4 u)
     case 41u: return sampling_hammersley(to_uint(u[0] * 4096.0f), 4096u)[0];
     case 42u: return sampling_van_der_corput(to_uint(u[0] * 65536.0f));
     case 43u: return case_mark(tonemap(to_uint(u[3] * 8.0f) % 6u, 4.0f * color));
+    case 44u: return case_mark(ambient_hemispheric(color, bright, wo, wi));
+    case 45u: return case_mark(ambient_at(case_ambient(u), wo));
     }
     return 0.0f;
 }
