@@ -96,7 +96,7 @@ typedef struct ag_render_options {
     ag_tonemap tonemap;
     ag_background background;
     float background_color[3]; // sRGB-coded, shown as it is, not exposed
-    float exposure;            // linear factor; 0 -> 1
+    float exposure;            // linear factor; 0 -> ag_scene_exposure()
     ag_progress progress;      // stage "render"
 } ag_render_options;
 

@@ -168,22 +168,59 @@ typedef enum ag_light_kind {
     AG_LIGHT_POINT = 0,
     AG_LIGHT_SPOT,
     AG_LIGHT_DIRECTIONAL,
+    AG_LIGHT_SUN,         // a disk in the sky: a directional light of some angular radius
+    AG_LIGHT_SPHERE,      // shines from its whole surface
+    AG_LIGHT_DISK,        // shines from its front
+    AG_LIGHT_RECT,        // shines from its front
+    AG_LIGHT_TUBE,        // a cylinder between two half spheres, shines from its whole surface
+    AG_LIGHT_AMBIENT,     // the same from everywhere; diffuse only, as are those that follow
+    AG_LIGHT_HEMISPHERIC, // one colour from above, one from below
+    AG_LIGHT_HARMONICS,   // spherical harmonics of order 1 or 2
 } ag_light_kind;
 
+// What a kind does not name below it ignores.
 typedef struct ag_light_desc {
     ag_light_kind kind;
-    float position[3];                    // m, world space; ignored for AG_LIGHT_DIRECTIONAL
-    float direction[3];                   // the way the light travels; 0 -> (0, 0, -1)
-    float color[3];                       // linear Rec. 709 weights, >= 0; all 0 -> white
-    float intensity;                      // cd (point, spot), lux (directional)
-    float range_m;                        // point and spot: no light beyond; 0 -> unbounded
+    // m, world space: point and spot; the centre of a sphere, disk, rectangle or tube.
+    float position[3];
+    // Spot, directional, sun, disk, rectangle: the way the light travels; 0 -> (0, 0, -1).
+    // Tube: along its axis; 0 -> +X.  Hemispheric: to where `color` is; 0 -> +Y.
+    float direction[3];
+    float up[3];    // rectangle: its height's direction, made square to `direction`; 0 -> +Y
+    float color[3]; // linear Rec. 709 weights, >= 0; all 0 -> white
+    // cd (point, spot, sphere), lux on a surface that faces it (directional, sun), nit (disk,
+    // rectangle, tube, ambient, hemispheric, harmonics).  A sphere of intensity I and radius R
+    // has the radiance I / (pi R^2): as it shrinks it becomes a point light.
+    float intensity;
+    float range_m; // of lights with a position: no light beyond; 0 -> unbounded
     float cone_inner_rad, cone_outer_rad; // spot, from the axis; outer 0 -> pi/4
+    float radius_m;                       // sphere, disk, tube
+    float width_m, height_m;              // rectangle
+    float length_m;                       // tube, between the centres of its half spheres
+    float angular_radius_rad;             // sun, below pi/2; 0 -> 0.00465, the real one's
+    float ground_color[3];                // hemispheric: weights of the light from below, >= 0
+    // Harmonics: what a surface of unit normal n = (x, y, z) receives, irradiance over pi, is
+    // the light times the sum of these times 1, x, y, z, xy, yz, 3z^2 - 1, xz, x^2 - y^2.  A
+    // sum over all lights that is negative counts as 0.  See ag_light_harmonics().
+    float harmonics[9][3];
+    bool hidden; // its body is not seen, only its light
 } ag_light_desc;
 
-// Add a light; one of intensity 0 is dark.  AG_ERROR_ARGUMENT on a number that is not
-// finite, a negative intensity, range or colour, or a spot's cone that is not
-// 0 <= inner < outer <= pi/2.
+// Add a light; one of intensity 0 is dark.  Spheres, disks, rectangles, tubes and suns are
+// themselves seen, with the radiance that lights the scene, unless they are hidden; bodies do
+// not count for the scene's bounds.  AG_ERROR_ARGUMENT on a number that is not finite, a
+// negative intensity, range, size or colour, a spot's cone that is not
+// 0 <= inner < outer <= pi/2, or a sun as large as the sky.
 AG_CHECK ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_light *light);
+
+// `harmonics` of a light from the radiance's coefficients L_00, L_1-1, L_10, L_11, L_2-2 .. L_22
+// (real spherical harmonics about y, z, x; Ramamoorthi & Hanrahan 2001, eq. 3), by their eq. 10.
+AG_API void ag_light_harmonics(const float radiance[9][3], float harmonics[9][3]);
+
+// The exposure that pictures of the scene have unless they ask for another: a linear factor;
+// 1 in a new scene.  AG_ERROR_ARGUMENT unless it is finite and positive.
+AG_CHECK ag_status ag_scene_set_exposure(ag_scene *scene, float exposure);
+AG_API float ag_scene_exposure(const ag_scene *scene);
 
 typedef struct ag_camera_desc {
     float position[3], target[3]; // m

@@ -57,15 +57,16 @@ void ag_renderer_destroy(ag_renderer *r)
 
 // ---- What is asked -------------------------------------------------------------
 
-static ag_status check_options(const ag_log *log, ag_render_options *o)
+static ag_status check_options(const ag_scene *scene, ag_render_options *o)
 {
+    const ag_log *log = &scene->log;
     if (!o->width && !o->height)
         o->width = o->height = SIZE_DEFAULT;
     if (!o->width || !o->height || o->width > SIZE_MAX_PX || o->height > SIZE_MAX_PX)
         return log_fail(log, AG_ERROR_ARGUMENT, "a picture of %ux%u pixels is not in 1 to %d",
                         o->width, o->height, SIZE_MAX_PX);
     if (o->exposure == 0)
-        o->exposure = 1;
+        o->exposure = ag_scene_exposure(scene);
     if (!(o->exposure > 0 && isfinite(o->exposure)))
         return log_fail(log, AG_ERROR_ARGUMENT, "an exposure of %g is not above 0",
                         (double)o->exposure);
@@ -88,7 +89,7 @@ static ag_status plan(const ag_scene *scene, const ag_camera_desc *camera,
                       const ag_render_options *options, picture *p)
 {
     float min[3], max[3];
-    bool visible = scene_bounds(scene, min, max);
+    bool visible = light_widen(scene, scene_bounds(scene, min, max), min, max);
     ag_camera_desc automatic;
     if (!camera) {
         ag_orbit orbit = ag_orbit_auto();
@@ -290,7 +291,7 @@ ag_status ag_renderer_render(ag_renderer *r, const ag_scene *scene, const ag_cam
     *stats = (ag_render_stats) { 0 };
     *image = NULL;
     picture p;
-    ag_status status = check_options(&r->device->log, &checked);
+    ag_status status = check_options(scene, &checked);
     if (!status)
         status = plan(scene, camera, &checked, &p);
     if (status)

@@ -35,7 +35,7 @@ ag_status ag_scene_create(const ag_log *log, ag_scene **scene)
     made->log = to;
     made->materials[made->materials_count++] = ag_material_default();
     made->environment_kind = AG_ENVIRONMENT_STUDIO;
-    made->environment_intensity = 1.0f;
+    made->environment_intensity = made->exposure = 1.0f;
     made->id = make_id(made);
     made->revision = made->environment_revision = 1;
     *scene = made;
@@ -128,6 +128,22 @@ bool scene_bounds(const ag_scene *scene, float min[3], float max[3])
     for (size_t i = 0; i < scene->instances_count; i++)
         include_instance(scene, &scene->instances[i], min, max);
     return any;
+}
+
+// ---- Exposure ----------------------------------------------------------------
+
+ag_status ag_scene_set_exposure(ag_scene *scene, float exposure)
+{
+    if (!(exposure > 0.0f && isfinite(exposure)))
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT, "An exposure of %g is not above 0.",
+                        (double)exposure);
+    scene->exposure = exposure;
+    return AG_OK;
+}
+
+float ag_scene_exposure(const ag_scene *scene)
+{
+    return scene->exposure;
 }
 
 // ---- Asking ----------------------------------------------------------------

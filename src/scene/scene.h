@@ -56,6 +56,7 @@ struct ag_scene {
     ag_environment_kind environment_kind;
     ag_image *environment; // only for AG_ENVIRONMENT_IMAGE; see scene_environment_open
     float environment_rotation_rad, environment_intensity;
+    float exposure; // linear factor
     double load_ms, decode_ms;
     uint64_t id;                   // no other scene has it, also none freed before
     uint64_t revision;             // rises with every change
@@ -78,6 +79,17 @@ bool scene_camera_is_sound(const ag_camera_desc *desc);
 
 // World-space bounds of everything visible; false when there is nothing.
 bool scene_bounds(const ag_scene *scene, float min[3], float max[3]);
+
+// Whether lights of a kind stand somewhere; whether they are diffuse light from all sides.
+bool light_has_position(ag_light_kind kind);
+bool light_is_ambient(ag_light_kind kind);
+
+// m, from a light's position to the farthest point of its body; 0 for lights without one.
+float light_reach(const ag_light_desc *desc);
+
+// Widen bounds, there being `any`, by the bodies of lights that are seen; whether there are any
+// then.
+bool light_widen(const ag_scene *scene, bool any, float min[3], float max[3]);
 
 // Where scene arrays stood, to take back what a failed load appended.
 typedef struct scene_mark {

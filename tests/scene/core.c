@@ -1,5 +1,6 @@
 // Filling a scene: ids, defaults, sharing, taking back, and refusals that change nothing.
 #include "helpers.h"
+#include "scene/vector.h"
 
 static const float triangle[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
 
@@ -169,6 +170,77 @@ static void test_lights_get_defaults(void **state)
     assert_true(a->direction[1] == -1.0f && b->direction[2] == -1.0f);
     assert_true(a->color[0] == 1.0f && a->color[1] == 1.0f && a->color[2] == 1.0f);
     assert_near(a->cone_outer_rad, 0.78539816, 1e-6);
+    const ag_light_desc lights[] = {
+        { .kind = AG_LIGHT_SUN },
+        { .kind = AG_LIGHT_HEMISPHERIC },
+        { .kind = AG_LIGHT_TUBE },
+        { .kind = AG_LIGHT_RECT, .direction = { 0, -3, 0 } },
+        { .kind = AG_LIGHT_RECT, .direction = { 1, 0, 0 }, .up = { 5, 0, 2 } },
+    };
+    for (size_t i = 0; i < 5; i++)
+        assert_int_equal(ag_scene_add_light(scene, &lights[i], &light), AG_OK);
+    const ag_light_desc *l = &scene->lights[2];
+    assert_near(l[0].angular_radius_rad, 0.00465, 1e-7);
+    assert_true(l[1].direction[1] == 1.0f && l[2].direction[0] == 1.0f);
+    for (int i = 3; i < 5; i++)
+        assert_near(vec3_dot(vec3_from(l[i].up), vec3_from(l[i].direction)), 0, 1e-6);
+    assert_near(vec3_dot(vec3_from(l[3].up), vec3_from(l[3].up)), 1, 1e-6);
+    assert_near(l[4].up[2], 1, 1e-6);
+    ag_scene_destroy(scene);
+}
+
+// Irradiance over pi by summing radiance over the sphere, in even steps of height and azimuth.
+static void test_harmonics_from_radiance(void **state)
+{
+    (void)state;
+    const float L[9][3] = { { 1.0f },  { .5f },  { -.3f }, { .2f }, { .15f },
+                            { -.25f }, { .35f }, { .1f },  { -.2f } };
+    float h[9][3];
+    ag_light_harmonics(L, h);
+    const double n[3] = { 0.48, -0.6, 0.64 };
+    double sum = 0;
+    const int rows = 400, columns = 800;
+    for (int j = 0; j < rows; j++)
+        for (int i = 0; i < columns; i++) {
+            double z = 2 * (j + .5) / rows - 1, r = sqrt(1 - z * z);
+            double phi = 6.283185307179586 * (i + .5) / columns;
+            double d[3] = { r * cos(phi), r * sin(phi), z };
+            double x = d[0], y = d[1];
+            const double Y[9] = { .282095,
+                                  .488603 * y,
+                                  .488603 * z,
+                                  .488603 * x,
+                                  1.092548 * x * y,
+                                  1.092548 * y * z,
+                                  .315392 * (3 * z * z - 1),
+                                  1.092548 * x * z,
+                                  .546274 * (x * x - y * y) };
+            double radiance = 0;
+            for (int k = 0; k < 9; k++)
+                radiance += (double)L[k][0] * Y[k];
+            sum += radiance * fmax(0, n[0] * x + n[1] * y + n[2] * z);
+        }
+    sum *= 4 / (double)(rows * columns); // 4 pi / pi
+    double x = n[0], y = n[1], z = n[2];
+    const double basis[9] = { 1, x, y, z, x * y, y * z, 3 * z * z - 1, x * z, x * x - y * y };
+    double got = 0;
+    for (int k = 0; k < 9; k++)
+        got += (double)h[k][0] * basis[k];
+    assert_near(got, sum, 2e-4);
+    assert_true(h[0][1] == 0 && h[8][2] == 0);
+}
+
+static void test_exposure(void **state)
+{
+    (void)state;
+    sentences s = { 0 };
+    ag_scene *scene = make_scene(&s);
+    assert_true(ag_scene_exposure(scene) == 1.0f);
+    assert_int_equal(ag_scene_set_exposure(scene, 0.25f), AG_OK);
+    assert_int_equal(ag_scene_set_exposure(scene, 0.0f), AG_ERROR_ARGUMENT);
+    assert_int_equal(ag_scene_set_exposure(scene, NAN), AG_ERROR_ARGUMENT);
+    assert_int_equal(ag_scene_set_exposure(scene, INFINITY), AG_ERROR_ARGUMENT);
+    assert_true(ag_scene_exposure(scene) == 0.25f);
     ag_scene_destroy(scene);
 }
 
@@ -178,7 +250,7 @@ static void test_bad_lights(void **state)
     sentences s = { 0 };
     ag_scene *scene = make_scene(&s);
     const ag_light_desc bad[] = {
-        { .kind = (ag_light_kind)7 },
+        { .kind = (ag_light_kind)11 },
         { .intensity = -1 },
         { .intensity = NAN },
         { .range_m = -1 },
@@ -187,6 +259,13 @@ static void test_bad_lights(void **state)
         { .kind = AG_LIGHT_SPOT, .cone_inner_rad = 0.5f, .cone_outer_rad = 0.5f },
         { .kind = AG_LIGHT_SPOT, .cone_inner_rad = -0.1f, .cone_outer_rad = 0.5f },
         { .kind = AG_LIGHT_SPOT, .cone_outer_rad = 1.6f },
+        { .kind = AG_LIGHT_SUN, .angular_radius_rad = 1.6f },
+        { .kind = AG_LIGHT_SPHERE, .radius_m = -1 },
+        { .kind = AG_LIGHT_RECT, .width_m = NAN },
+        { .kind = AG_LIGHT_RECT, .up = { NAN, 0, 0 } },
+        { .kind = AG_LIGHT_TUBE, .length_m = INFINITY },
+        { .kind = AG_LIGHT_HEMISPHERIC, .ground_color = { -1, 0, 0 } },
+        { .kind = AG_LIGHT_HARMONICS, .harmonics = { [8] = { 0, 0, NAN } } },
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         ag_light light = { 7 };
@@ -290,6 +369,8 @@ int main(void)
         cmocka_unit_test(test_bad_materials),
         cmocka_unit_test(test_lights_get_defaults),
         cmocka_unit_test(test_bad_lights),
+        cmocka_unit_test(test_harmonics_from_radiance),
+        cmocka_unit_test(test_exposure),
         cmocka_unit_test(test_textures_are_copied_or_shared),
         cmocka_unit_test(test_bad_textures),
         cmocka_unit_test(test_rollback_takes_all_back),
