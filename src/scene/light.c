@@ -33,12 +33,8 @@ static bool cone_is_sound(const ag_light_desc *desc)
            desc->cone_outer_rad <= half_pi;
 }
 
-static ag_status check(const ag_scene *scene, const ag_light_desc *d)
+static ag_status check_angles(const ag_scene *scene, const ag_light_desc *d)
 {
-    if ((unsigned)d->kind > AG_LIGHT_HARMONICS || !numbers_are_sound(d))
-        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
-                        "A light has an unknown kind, a number that is not finite, or a negative "
-                        "intensity, range, size or colour.");
     if (d->kind == AG_LIGHT_SPOT && !cone_is_sound(d))
         return log_fail(&scene->log, AG_ERROR_ARGUMENT,
                         "A spot light's cone is %g to %g rad: it must be 0 <= inner < outer <= "
@@ -92,9 +88,13 @@ static void fill_defaults(ag_light_desc *d)
 ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_light *light)
 {
     *light = (ag_light) { 0 };
+    if ((unsigned)desc->kind > AG_LIGHT_HARMONICS || !numbers_are_sound(desc))
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                        "A light has an unknown kind, a number that is not finite, or a negative "
+                        "intensity, range, size or colour.");
     ag_light_desc made = *desc;
     fill_defaults(&made);
-    ag_status status = check(scene, &made);
+    ag_status status = check_angles(scene, &made);
     if (status)
         return status;
     if (!array_reserve(&scene->lights, &scene->lights_capacity, scene->lights_count + 1,
