@@ -101,9 +101,46 @@ typedef enum ag_alpha_mode {
     AG_ALPHA_BLEND,
 } ag_alpha_mode;
 
+// How a surface reflects.  Zero is the default of each choice; together the defaults conserve
+// energy.  docs/physics.md has the formulas and their papers.
+typedef enum ag_diffuse {
+    AG_DIFFUSE_LAMBERT = 0,
+    AG_DIFFUSE_OREN_NAYAR, // Oren & Nayar 1994, their A and B; loses light as it gets rough
+    AG_DIFFUSE_EON,        // energy-preserving Oren-Nayar; Portsmouth, Kutz & Hill 2025
+} ag_diffuse;
+
+typedef enum ag_distribution {
+    AG_DISTRIBUTION_GGX = 0, // Trowbridge & Reitz 1975; anisotropic where `anisotropy` is not 0
+    AG_DISTRIBUTION_BLINN,   // specular_color (n.h)^shininess: neither Fresnel nor shadowing,
+                             // nor image light; the base is not lessened for it
+} ag_distribution;
+
+typedef enum ag_shadowing {
+    AG_SHADOWING_SMITH = 0, // height-correlated; Heitz 2014
+    AG_SHADOWING_SCHLICK,   // Schlick 1994 with k = (roughness + 1)^2 / 8 under lights and
+                            // alpha / 2 under image light; Karis 2013
+} ag_shadowing;
+
+typedef enum ag_fresnel {
+    AG_FRESNEL_SCHLICK = 0, // Schlick 1994
+    AG_FRESNEL_CONDUCTOR,   // the metal's part exactly, from conductor_n and conductor_k; it
+                            // takes no base_color
+    AG_FRESNEL_F82,         // the metal's part lowered at 82 degrees by f82_tint; Kutz, Hasan &
+                            // Edmondson 2021
+} ag_fresnel;
+
+// What the base receives under the lobe.
+typedef enum ag_layering {
+    AG_LAYERING_ALBEDO = 0, // all that the lobe leaves of the light, by its albedo
+    AG_LAYERING_FRESNEL,    // (1 - F)(1 - metallic), F of each light's half vector
+    AG_LAYERING_GLTF,       // the same with the dielectric's F (glTF 2.0, appendix B)
+    AG_LAYERING_BLEND,      // lobe times reflectiveness, base times 1 - reflectiveness, metallic
+                            // or not
+} ag_layering;
+
 // The metallic-roughness material of glTF 2.0 with KHR_materials_unlit,
-// _emissive_strength, _ior and _specular.  A factor that multiplies has no natural
-// zero, so start from ag_material_default().
+// _emissive_strength, _ior, _specular and _anisotropy.  A factor that multiplies has no
+// natural zero, so start from ag_material_default().
 typedef struct ag_material_desc {
     float base_color[4];       // linear, with alpha
     float metallic, roughness; // [0, 1], perceptual roughness
@@ -113,6 +150,21 @@ typedef struct ag_material_desc {
     float ior;                // of the dielectric; 0 = specular everywhere 1 (KHR_materials_ior)
     float specular;           // [0, 1]
     float specular_color[3];  // linear, >= 0
+    ag_diffuse diffuse;
+    float diffuse_roughness; // EON: [0, 1]; Oren-Nayar: sigma, [0, pi/2] rad
+    ag_distribution distribution;
+    float shininess; // Blinn's exponent, >= 0
+    // KHR_materials_anisotropy: alpha = roughness^2 becomes mix(alpha, 1, anisotropy^2) along
+    // the tangent turned counter-clockwise by the rotation.
+    float anisotropy; // [0, 1]
+    float anisotropy_rotation_rad;
+    ag_shadowing shadowing;
+    ag_fresnel fresnel;
+    float conductor_n[3], conductor_k[3]; // index of refraction > 0 and extinction >= 0 of R, G, B
+    float f82_tint[3];                    // [0, 1], of Schlick's value at 82 degrees
+    ag_layering layering;
+    float reflectiveness; // [0, 1], AG_LAYERING_BLEND
+    bool single_bounce;   // light that hits the microfacets twice is lost
     ag_alpha_mode alpha_mode;
     float alpha_cutoff;
     bool double_sided;
@@ -126,7 +178,8 @@ typedef struct ag_material_desc {
     ag_texture_use specular_color_texture;     // sRGB
 } ag_material_desc;
 
-// glTF's defaults: white, metallic 1, roughness 1, ior 1.5, everything else neutral.
+// glTF's defaults: white, metallic 1, roughness 1, ior 1.5, everything else neutral;
+// shininess 100, reflectiveness .5, the conductor's index that of no particular metal.
 AG_API ag_material_desc ag_material_default(void);
 
 // Add a material; what lies outside the ranges above is clamped to them (an ior between 0

@@ -15,6 +15,11 @@ ag_material_desc ag_material_default(void)
         .ior = 1.5f,
         .specular = 1.0f,
         .specular_color = { 1.0f, 1.0f, 1.0f },
+        .shininess = 100.0f,
+        .conductor_n = { 1.0f, 1.0f, 1.0f },
+        .conductor_k = { 5.0f, 5.0f, 5.0f },
+        .f82_tint = { 1.0f, 1.0f, 1.0f },
+        .reflectiveness = 0.5f,
         .alpha_cutoff = 0.5f,
     };
 }
@@ -40,17 +45,49 @@ static bool use_is_sound(const ag_scene *scene, const ag_texture_use *use)
 
 static bool numbers_are_finite(const ag_material_desc *desc)
 {
-    const float scalars[] = { desc->metallic,           desc->roughness, desc->normal_scale,
-                              desc->occlusion_strength, desc->ior,       desc->specular,
-                              desc->alpha_cutoff };
+    const float scalars[] = {
+        desc->metallic,
+        desc->roughness,
+        desc->normal_scale,
+        desc->occlusion_strength,
+        desc->ior,
+        desc->specular,
+        desc->diffuse_roughness,
+        desc->shininess,
+        desc->anisotropy,
+        desc->anisotropy_rotation_rad,
+        desc->reflectiveness,
+        desc->alpha_cutoff,
+    };
     return all_finite(scalars, sizeof scalars / sizeof *scalars) &&
            all_finite(desc->base_color, 4) && all_finite(desc->emissive, 3) &&
-           all_finite(desc->specular_color, 3);
+           all_finite(desc->specular_color, 3) && all_finite(desc->conductor_n, 3) &&
+           all_finite(desc->conductor_k, 3) && all_finite(desc->f82_tint, 3);
+}
+
+static bool choices_are_known(const ag_material_desc *desc)
+{
+    return (unsigned)desc->diffuse <= AG_DIFFUSE_EON &&
+           (unsigned)desc->distribution <= AG_DISTRIBUTION_BLINN &&
+           (unsigned)desc->shadowing <= AG_SHADOWING_SCHLICK &&
+           (unsigned)desc->fresnel <= AG_FRESNEL_F82 &&
+           (unsigned)desc->layering <= AG_LAYERING_BLEND;
+}
+
+static bool is_conductor(const ag_material_desc *desc)
+{
+    return desc->conductor_n[0] > 0.0f && desc->conductor_n[1] > 0.0f &&
+           desc->conductor_n[2] > 0.0f;
+}
+
+static float clamp(float value, float low, float high)
+{
+    return fminf(fmaxf(value, low), high);
 }
 
 static float clamp01(float value)
 {
-    return fminf(fmaxf(value, 0.0f), 1.0f);
+    return clamp(value, 0.0f, 1.0f);
 }
 
 static void clamp_ranges(ag_material_desc *desc)
@@ -60,11 +97,19 @@ static void clamp_ranges(ag_material_desc *desc)
     for (int i = 0; i < 3; i++) {
         desc->emissive[i] = fmaxf(desc->emissive[i], 0.0f);
         desc->specular_color[i] = fmaxf(desc->specular_color[i], 0.0f);
+        desc->conductor_n[i] = clamp(desc->conductor_n[i], 1e-3f, 1e3f);
+        desc->conductor_k[i] = clamp(desc->conductor_k[i], 0.0f, 1e3f);
+        desc->f82_tint[i] = clamp01(desc->f82_tint[i]);
     }
     desc->metallic = clamp01(desc->metallic);
     desc->roughness = clamp01(desc->roughness);
     desc->occlusion_strength = clamp01(desc->occlusion_strength);
     desc->specular = clamp01(desc->specular);
+    desc->diffuse_roughness =
+        clamp(desc->diffuse_roughness, 0.0f, desc->diffuse == AG_DIFFUSE_EON ? 1.0f : 1.5707963f);
+    desc->shininess = clamp(desc->shininess, 0.0f, 1e6f);
+    desc->anisotropy = clamp01(desc->anisotropy);
+    desc->reflectiveness = clamp01(desc->reflectiveness);
     desc->ior = desc->ior == 0.0f ? 0.0f : fmaxf(desc->ior, 1.0f);
     desc->alpha_cutoff = fmaxf(desc->alpha_cutoff, 0.0f);
 }
@@ -83,6 +128,15 @@ static ag_status check(const ag_scene *scene, ag_material_desc *desc)
     if (!numbers_are_finite(desc))
         return log_fail(&scene->log, AG_ERROR_ARGUMENT,
                         "A material's number is infinite or not a number.");
+    if (!choices_are_known(desc))
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                        "A material's diffuse, distribution, shadowing, fresnel or layering is "
+                        "none of the listed ones.");
+    if (desc->fresnel == AG_FRESNEL_CONDUCTOR && !is_conductor(desc))
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                        "A material's conductor_n is not above 0: (%g %g %g).",
+                        (double)desc->conductor_n[0], (double)desc->conductor_n[1],
+                        (double)desc->conductor_n[2]);
     if ((unsigned)desc->alpha_mode > AG_ALPHA_BLEND)
         return log_fail(&scene->log, AG_ERROR_ARGUMENT,
                         "A material's alpha mode is none of the listed ones.");
