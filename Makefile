@@ -2,7 +2,7 @@
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: help render build test sanitize clang bench accuracy format install clean
+.PHONY: help render build test sanitize clang bench accuracy tables format install clean
 
 help: ## what can be made (the default)
 	@echo "Argand: a physically based real-time renderer."
@@ -50,6 +50,10 @@ accuracy: ## print the sphere light's error against quadrature
 	@test -f build/bench/build.ninja || cmake --preset release -B build/bench -DARGAND_BENCH=ON
 	@cmake --build build/bench -j $(JOBS) --target accuracy
 	@build/bench/bench/accuracy && build/bench/bench/accuracy 10 0.6
+
+tables: build ## fit the table of linearly transformed cosines again (a minute)
+	@cmake --build --preset release -j $(JOBS) --target tables
+	@build/release/tools/tables src/bake/ltc_table.c
 
 format: ## lay out all C with clang-format
 	@scripts/packages.sh format

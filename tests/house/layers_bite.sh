@@ -9,7 +9,7 @@ copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 mkdir "$copy/docs" "$copy/examples"
 cp "$1/docs/architecture.md" "$copy/docs"
-cp -r "$1/include" "$1/src" "$1/shaders" "$copy"
+cp -r "$1/include" "$1/src" "$1/shaders" "$1/tools" "$copy"
 
 sh "$here/layers.sh" "$copy" >/dev/null || { echo "the untouched copy fails"; exit 1; }
 while read -r file line; do
@@ -27,6 +27,7 @@ src/gpu/x.c #  include "scene/scene.h"
 src/cli/x.c #include "base/log.h"
 src/image/x.c #include "../scene/scene.h"
 src/render/x.c #include "nowhere/x.h"
+tools/x.c #include "gpu/device.h"
 shaders/physics/x.glsl #include "interop/scene.glsl"
 examples/x.c #include <base/log.h>
 END

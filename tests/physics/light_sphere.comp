@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "physics/light_ltc.glsl"
 #include "physics/light_polygon.glsl"
 #include "physics/surface_light.glsl"
 
@@ -18,5 +19,9 @@ void main()
     surface s = surface(vec3(.1), vec3(0), vec3(.04), 1, .1);
     vec3 seen = surface_cap(s, vec3(0, 0, 1), normalize(u[2 * i + 1].xyz), sun);
     y[i] = vec4(x, light_cap_cosine(cap), light_cap_cosine(sun)) + vec4(seen, 0);
+    vec4 m = light_ltc_matrix(u[i], .3);
+    y[i].xy += light_ltc_cap(sun, u[i].xyz, m, x) + light_ltc_uv(x[0], x[1]) +
+               light_ltc_disk(u[i].xyz, u[i].yzx, u[i].zxy, u[i].xyz, m, x) +
+               light_ltc_tube(u[i].xyz, u[i].yzx, x[0], u[i].xyz, m, x);
     y[i][0] += light_quad_form_factor(u[i].xyz, u[2 * i].xyz, u[i].yzx, u[2 * i].yzx);
 }
