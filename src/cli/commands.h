@@ -19,7 +19,8 @@ typedef struct command {
     const char *about;     // one line
     const char *lesson;    // what `argand help NAME` says below the usage; may be NULL
     const option *options; // as in option_set; may be NULL
-    const char *examples;  // what it says below the options; may be NULL
+    const char *more;      // what it says below the options; may be NULL
+    const char *examples;  // and last; may be NULL
     exit_code (*run)(int argc, char **argv); // arguments behind the command's name
 } command;
 

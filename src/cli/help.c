@@ -47,6 +47,8 @@ void help_command(const command *c)
         puts("\noptions:");
     for (const option *o = c->options; o && o->name; o++)
         print_option(o);
+    if (c->more)
+        printf("\n%s", c->more);
     if (c->examples)
         printf("\nexamples:\n%s", c->examples);
 }

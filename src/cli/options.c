@@ -46,7 +46,7 @@ static bool unknown(const option_set *set, const char *name, size_t length)
 // An example with a character that the shell takes for itself is quoted.
 static const char *quote_for(const option *o)
 {
-    return strchr(o->example, '#') ? "'" : "";
+    return strpbrk(o->example, "# ") ? "'" : "";
 }
 
 static bool refuse(const option *o, const char *value, const char *complaint)

@@ -55,6 +55,16 @@ static ag_status load_scene(work *w)
     return ag_scene_load(w->scene, input, &options);
 }
 
+static ag_status add_lights(work *w)
+{
+    const light_list *list = &w->request->lights;
+    ag_light light;
+    ag_status status = AG_OK;
+    for (size_t i = 0; i < list->count && !status; i++)
+        status = ag_scene_add_light(w->scene, &list->lights[i], &light);
+    return status;
+}
+
 static ag_status set_environment(work *w)
 {
     const render_request *r = w->request;
@@ -94,6 +104,8 @@ static ag_status prepare(work *w)
     w->report.device_ms = w->opening.ms;
     w->report.environment_ms = w->reading.ms;
     ag_status status = loaded ? loaded : read ? read : opened ? opened : set_environment(w);
+    if (!status)
+        status = add_lights(w);
     // The scene is drawn once: its images need not be in memory twice.
     return status ? status : ag_renderer_take(w->renderer, w->scene, &w->report.take_ms);
 }
@@ -267,10 +279,11 @@ const command command_render = {
         "FILE is a glTF 2.0 file, .gltf with its files or .glb.  Without --camera the scene is\n"
         "framed automatically, from three quarters and slightly above; a built-in scene is\n"
         "seen from its own camera.  Without --env a procedural studio with soft boxes lights\n"
-        "it, or what a built-in scene brings along; the lights of the file always shine.\n"
-        "The picture appears whole or not at all.\n"
+        "it, or what a built-in scene brings along; its own lights and those of --light always\n"
+        "shine.  The picture appears whole or not at all.\n"
         "In .exr and .hdr it is linear light times the exposure, without a tone curve.\n",
     .options = render_options,
+    .more = lights_lesson,
     .examples = "  argand render helmet.glb -o helmet.png\n"
                 "      The whole model in the studio, 1024x1024 pixels.\n"
                 "  argand render helmet.glb -o helmet.png --env workshop.hdr --size 1920x1080\n"
@@ -280,6 +293,10 @@ const command command_render = {
                 "  argand render chair.gltf -o side.png --orbit 90,80,auto --fov 30\n"
                 "      From +X, ten degrees above the horizon, as far away as it takes.\n"
                 "  argand render lamp.glb -o lamp.exr --env none --ev100 8\n"
-                "      Only the file's own lights, as linear floats for further work.\n",
+                "      Only the file's own lights, as linear floats for further work.\n"
+                "  argand render chair.gltf -o lit.png --env none \\\n"
+                "      --light 'sphere at=1,2,1 radius=0.2 intensity=20 color=1,.9,.8' \\\n"
+                "      --light 'rect at=-2,1,0 to=0,0,0 width=1 height=2 intensity=3'\n"
+                "      Under a warm lamp and a panel that faces the origin.\n",
     .run = run,
 };

@@ -79,10 +79,12 @@ const option render_options[] = {
       FIELD(environment_rotation_rad), value_degrees, NULL, FIELD(environment_given) },
     { "--env-intensity", NULL, "FACTOR", "1.5", "make it brighter or darker (1)",
       FIELD(environment_intensity), value_factor, NULL, FIELD(environment_given) },
+    { "--light", NULL, "'KIND KEY=VALUE ...'", "sphere at=0,2,1 radius=0.1 intensity=100",
+      "add a light, once for each; see below", FIELD(lights), lights_read, NULL, 0 },
     { "--background", NULL, "env|transparent|#rrggbb", "#ffffff", "what is behind it all (env)",
       FIELD(background), read_background, NULL, 0 },
-    { "--exposure", NULL, "FACTOR", "1", "a linear factor on the light (1)", FIELD(exposure),
-      value_factor, NULL, FIELD(exposure_given) },
+    { "--exposure", NULL, "FACTOR", "1", "a linear factor on the light (the scene's own, else 1)",
+      FIELD(exposure), value_factor, NULL, FIELD(exposure_given) },
     { "--ev100", NULL, "EV", "0", "or as a camera counts it: the factor 1 / (1.2 * 2^EV)",
       FIELD(ev100), value_ev100, NULL, FIELD(ev100_given) },
     { "--tonemap", NULL, "CURVE", "neutral",
@@ -149,7 +151,6 @@ bool render_request_parse(render_request *r, int argc, char **argv, bool *help)
         .orbit = { NAN, NAN, NAN },
         .target = { NAN, NAN, NAN },
         .environment_intensity = 1,
-        .exposure = 1,
         .device = "auto",
     };
     option_set set = {

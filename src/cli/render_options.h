@@ -2,6 +2,7 @@
 #ifndef CLI_RENDER_OPTIONS_H
 #define CLI_RENDER_OPTIONS_H
 
+#include "lights.h"
 #include "options.h"
 #include "values.h"
 
@@ -28,8 +29,9 @@ typedef struct render_request {
     environment_choice environment;
     float environment_rotation_rad, environment_intensity;
     background_choice background;
-    float exposure, ev100;
-    int tonemap, quality; // ag_tonemap, ag_quality
+    light_list lights;     // besides those of the scene
+    float exposure, ev100; // exposure 0 = the scene's
+    int tonemap, quality;  // ag_tonemap, ag_quality
     const char *device;
     bool validate, json, quiet, verbose;
     bool orbit_given, target_given, exposure_given, ev100_given;

@@ -111,6 +111,103 @@ const char *value_ev100(const char *value, void *field)
     return NULL;
 }
 
+const char *value_at_least_0(const char *value, void *field)
+{
+    double number;
+    const char *complaint = read_alone(value, &number);
+    if (complaint)
+        return complaint;
+    if (number < 0)
+        return "is below 0";
+    *(float *)field = (float)number;
+    return NULL;
+}
+
+const char *value_cone_degrees(const char *value, void *field)
+{
+    double degrees;
+    const char *complaint = read_alone(value, &degrees);
+    if (complaint)
+        return complaint;
+    if (degrees < 0 || degrees > 90)
+        return "is not between 0 and 90 degrees";
+    *(float *)field = radians(degrees);
+    return NULL;
+}
+
+const char *value_sun_degrees(const char *value, void *field)
+{
+    double degrees;
+    const char *complaint = read_alone(value, &degrees);
+    if (complaint)
+        return complaint;
+    if (degrees < 1e-6 || degrees > 89.99)
+        return "is not between 0.000001 and 89.99 degrees";
+    *(float *)field = radians(degrees);
+    return NULL;
+}
+
+// How many numbers there are with commas between; 0 for anything else or more than `most`.
+static size_t read_list(const char *value, double *numbers, size_t most)
+{
+    for (size_t count = 0; count < most; count++) {
+        size_t length = strcspn(value, ",");
+        if (!read_number(value, length, &numbers[count]))
+            return 0;
+        if (!value[length])
+            return count + 1;
+        value += length + 1;
+    }
+    return 0;
+}
+
+const char *value_vector(const char *value, void *field)
+{
+    double v[3];
+    if (read_list(value, v, 3) != 3)
+        return "is not three numbers X,Y,Z";
+    for (int i = 0; i < 3; i++)
+        ((float *)field)[i] = (float)v[i];
+    return NULL;
+}
+
+static bool all_zero(const float v[3])
+{
+    return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
+
+const char *value_direction(const char *value, void *field)
+{
+    const char *complaint = value_vector(value, field);
+    return !complaint && all_zero(field) ? "has no direction" : complaint;
+}
+
+const char *value_weights(const char *value, void *field)
+{
+    const float *v = field;
+    if (value_vector(value, field))
+        return "is not three weights R,G,B";
+    return v[0] < 0 || v[1] < 0 || v[2] < 0 ? "has a weight below 0" : NULL;
+}
+
+const char *value_color_weights(const char *value, void *field)
+{
+    const char *complaint = value_weights(value, field);
+    return !complaint && all_zero(field) ? "is black; intensity=0 makes a light dark" : complaint;
+}
+
+const char *value_terms(const char *value, void *field)
+{
+    double v[27];
+    size_t count = read_list(value, v, 27), channels = count % 12 && count != 27 ? 1 : 3;
+    if (count != 4 && count != 9 && count != 12 && count != 27)
+        return "is not 4, 9, 12 or 27 numbers";
+    for (size_t i = 0; i < count / channels; i++)
+        for (size_t c = 0; c < 3; c++)
+            ((float(*)[3])field)[i][c] = (float)v[channels == 3 ? 3 * i + c : i];
+    return NULL;
+}
+
 // Three numbers with commas between, "auto" -> NAN.
 static bool read_three(const char *value, double three[3])
 {

@@ -21,6 +21,18 @@ const char *value_degrees(const char *value, void *field);     // any; radians i
 const char *value_fov_degrees(const char *value, void *field); // (0, 180); radians
 const char *value_factor(const char *value, void *field);      // above 0
 const char *value_ev100(const char *value, void *field);       // [-32, 32]
+const char *value_at_least_0(const char *value, void *field);
+const char *value_cone_degrees(const char *value, void *field); // [0, 90]; radians
+const char *value_sun_degrees(const char *value, void *field);  // (0, 90); radians
+
+// Numbers with commas between; `field` is float[3].
+const char *value_vector(const char *value, void *field);        // any
+const char *value_direction(const char *value, void *field);     // not 0,0,0
+const char *value_weights(const char *value, void *field);       // none below 0
+const char *value_color_weights(const char *value, void *field); // nor all of them 0
+
+// 4 or 9 numbers, or three times as many; `field` is float[9][3], a single number in all three.
+const char *value_terms(const char *value, void *field);
 
 // Three numbers, "auto" for any; `field` is float[3] with NAN where automatic.
 const char *value_orbit(const char *value, void *field);  // degrees, degrees, metres; radians

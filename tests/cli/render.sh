@@ -68,6 +68,37 @@ cmp -s a.png b.png || fail "--camera by name and by index differ"
 cmp -s a.png c.png && fail "--camera has no effect"
 rm ./*.png
 
+# Lights: every kind is taken, and only they light where there is nothing else.
+glow() { # glow NAME ARGUMENT...: a picture of the triangle without an environment
+    name=$1
+    shift
+    "$argand" render "$lit" -o $name $small --tonemap none --env none --camera 0 "$@" >out 2>err ||
+        fail "render $name: $*"
+}
+lit=$folder/lit.gltf
+sed 's/KHR_materials_unlit/KHR_materials_ior/' "$triangle" >"$lit"
+glow dark.png --light 'point at=0,0,2 intensity=0'
+glow point.png --light 'point at=0.3,0.3,2 intensity=4'
+cmp -s dark.png point.png && fail "--light has no effect"
+# Two halves are one whole, a blank more or less says the same, so does where a light shines to.
+glow halves.png --light 'point at=0.3,0.3,2 intensity=2' --light "  point   at=.3,.3,2 intensity=2"
+cmp -s halves.png point.png || fail "two halves are not one whole"
+glow to.png --light 'spot at=0,0,2 to=0,2,0 intensity=9 inner=40 outer=60'
+glow direction.png --light 'spot at=0,0,2 direction=0,1,-1 intensity=9 inner=40 outer=60'
+cmp -s to.png direction.png || fail "to= and direction= differ"
+cmp -s to.png dark.png && fail "the spot has no effect"
+# --exposure goes before what the scene says, which is 1 here.
+glow one.png --light 'point at=0.3,0.3,2 intensity=4' --exposure 1
+glow twice.png --light 'point at=0.3,0.3,2 intensity=4' --exposure 2
+cmp -s one.png point.png || fail "the scene's exposure is not 1"
+cmp -s one.png twice.png && fail "--exposure has no effect"
+glow all.png --validate --light directional --light 'sun angle=5 direction=0,-1,-1 hidden' \
+    --light 'sphere at=0,0,9 radius=1' --light 'disk at=0,0,9 to=0,0,0 radius=1 range=20' \
+    --light 'rect at=0,0,9 width=1 height=2 up=1,0,0' --light 'tube at=0,9,0 length=1 radius=.1' \
+    --light 'ambient color=1,0,0 intensity=.1' --light 'hemispheric ground=.1,.1,.1' \
+    --light 'harmonics terms=1,0,.5,0' --light 'harmonics terms=1,1,1,0,0,0,0,1,0,0,0,0'
+rm ./*.png
+
 # What only shows once the files are read.
 expect 1 "has no camera 'back'; it has 0 (front)" render "$triangle" -o x.png $small --camera back
 expect 1 "it has 0 (front)" render "$triangle" -o x.png $small --camera 1

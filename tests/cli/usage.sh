@@ -17,6 +17,7 @@ for command in render info devices demo help; do
     "$argand" help $command | cmp -s - out || fail "$command --help is help $command"
 done
 "$argand" help render | grep -q 'argand render helmet.glb -o helmet.png' || fail "no example"
+"$argand" help render | grep -q "^  sphere       cd   at radius range hidden" || fail "no lights"
 "$argand" demo | grep -q '^demo:spheres ' || fail "demo lists the spheres"
 expect 2 "did you mean 'render'" rendr x.glb
 expect 2 "argand render x.glb -o picture.png" x.glb
@@ -69,6 +70,42 @@ bad "--background needs a value; try --background '#ffffff'" --background
 bad "--size needs a value" --size --json
 bad "--json takes no value" --json=yes
 bad "neither studio, sky or none nor a file" --env sudio
+bad "--light: '' is empty; try --light 'sphere at=0,2,1 radius=0.1 intensity=100'" --light ""
+bad "--light needs a value; try --light 'sphere at" --light
+bad "begins with 'spere', which is no kind of light: there are point, spot, dir" --light "spere a=1"
+bad "tube, ambient, hemispheric and harmonics; try" --light at=0,1,0
+while IFS='|' read -r light text; do
+    bad "'$light' $text" --env none --light point --light "$light"
+done <<'END'
+sphere|lacks radius=, which a light of kind sphere needs
+rect width=1|lacks height=
+tube radius=1|lacks length=
+harmonics|lacks terms=
+sphere radius|gives 'radius' no value
+sphere radius=|gives 'radius' no value
+sphere radius=nan|has radius=nan, which is not a number
+sphere radius=-1|has radius=-1, which is below 0
+sphere radius=1e39|has radius=1e39, which is not a number
+sphere radius=1 radius=1|says 'radius' twice
+sphere radius=1 to=0,1,0|has 'to', which a light of kind sphere does not take: it takes at, radius,
+ambient at=0,0,0|has 'at', which a light of kind ambient does not take: it takes color, intensity
+sphere =1|has '', which a light of kind sphere does not take
+sphere radius=1 at=1,2|has at=1,2, which is not three numbers X,Y,Z
+sphere radius=1 at=1,2,3,4|has at=1,2,3,4, which is not three numbers
+sphere radius=1 hidden=1|gives 'hidden' a value; it takes none
+point color=1,-1,1|has color=1,-1,1, which has a weight below 0
+point color=0,0,0|has color=0,0,0, which is black; intensity=0 makes a light dark
+point intensity=inf|has intensity=inf, which is not a number
+spot inner=45|has an inner angle (0) that is not below the outer one (45)
+spot outer=90.1|has outer=90.1, which is not between 0 and 90 degrees
+spot direction=0,0,0|has direction=0,0,0, which has no direction
+spot to=1,0,0 direction=1,0,0|has both to= and direction=; give one of them
+spot to=0,0,0|shines to where it stands
+sun angle=90|has angle=90, which is not between
+harmonics terms=1,2,3|has terms=1,2,3, which is not 4, 9, 12 or 27 numbers
+END
+bad "'$(printf '%0600d' 0)' has a word of 600 letters; try" --light "$(printf '%0600d' 0)"
+bad "is one too many: at most 256 are taken" $(yes -- --light=point | head -n 257)
 bad "one argument too many" other.glb
 bad "give one or the other" --camera 0 --orbit 0,90,1
 bad "give one of them" --exposure 1 --ev100 0

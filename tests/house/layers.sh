@@ -5,8 +5,8 @@
 set -eu
 cd "$1"
 
-find src shaders include examples tools -type f \( -name '*.[ch]' -o -name '*.glsl' \
-    -o -name '*.vert' -o -name '*.frag' -o -name '*.comp' \) | LC_ALL=C sort >"${TMPDIR:-/tmp}/layers.$$"
+find src shaders include examples tools -type f \( -name '*.[ch]' -o -name '*.glsl' -o -name \
+    '*.vert' -o -name '*.frag' -o -name '*.comp' \) | LC_ALL=C sort >"${TMPDIR:-/tmp}/layers.$$"
 trap 'rm -f "${TMPDIR:-/tmp}/layers.$$"' EXIT
 
 awk '
