@@ -31,6 +31,51 @@ typedef struct float4x4 {
     name;
 #endif
 
+// The kinds of gpu_light, in the order in which they stand.
+#define GPU_LIGHT_POINT       0u
+#define GPU_LIGHT_SPOT        1u
+#define GPU_LIGHT_DIRECTIONAL 2u
+#define GPU_LIGHT_SUN         3u
+#define GPU_LIGHT_SPHERE      4u // this and those that follow have a body
+#define GPU_LIGHT_RECT        5u
+#define GPU_LIGHT_DISK        6u
+#define GPU_LIGHT_TUBE        7u
+
+// Groups of kinds that are computed alike, in the same order.
+#define GPU_LIGHTS_PUNCTUAL 0
+#define GPU_LIGHTS_CAP      1 // sun, sphere
+#define GPU_LIGHTS_RECT     2
+#define GPU_LIGHTS_DISK     3
+#define GPU_LIGHTS_TUBE     4
+#define GPU_LIGHT_GROUPS    5
+
+#define GPU_LIGHTS_NEAR 8 // punctual ones that are also in a uniform buffer
+
+STRUCT_BEGIN(gpu_light)
+    float3 position; // m, world space
+    float inverse_range2;
+    float3 intensity; // cd (punctual, sphere), lux (directional, sun), nit
+    uint kind;
+    float3 direction; // unit, the way the light travels; up for tubes
+    float radius;     // m; sine of a sun's angular radius
+    float3 x;         // half the width of a rectangle, a disk; half a tube's axis
+    float cone_scale; // light_spot_cone(); cosine of a sun's angular radius
+    float3 y;         // half the height
+    float cone_offset;
+    float3 radiance; // nit, of the body; 0 = hidden
+STRUCT_END(gpu_light)
+
+// The grid that is laid around a light's body: an odd number of rows, so that none of its
+// points is on a tube's middle.
+#define GPU_BODY_COLUMNS 48
+#define GPU_BODY_ROWS    25
+
+// Under many lights the picture is cut into clusters, GPU_CLUSTERS tiles across, as many down,
+// as many slices of depth.  Each has a first and GPU_LIGHT_GROUPS ends in a list of lights,
+// which follows the clusters in their buffer.
+#define GPU_CLUSTERS      16
+#define GPU_CLUSTER_WORDS 6
+
 // One view of the scene.
 STRUCT_BEGIN(gpu_frame)
     float4x4 clip_from_world;
@@ -47,25 +92,17 @@ STRUCT_BEGIN(gpu_frame)
     float environment_cos; // of the environment's rotation about +Y
     float environment_sin;
     float environment_mips; // levels of the prefiltered cube
-    uint light_count;
-    float3 sh[9]; // radiance of the environment, order 2
+    uint first_body;        // of the lights
+    float3 sh[9];                      // radiance of the environment, order 2
+    float3 ambient[9];                 // ambient_light of ambient.glsl
+    uint light_ends[GPU_LIGHT_GROUPS]; // where each group of lights ends
+    uint cluster_tile_x, cluster_tile_y; // px
+    // m along the line of sight = dot(depth.xyz, position) + depth.w
+    float4 depth;
+    // A depth of z m is in slice log2(z) slice_scale + slice_offset of the clusters.
+    float slice_scale;
+    float slice_offset;
 STRUCT_END(gpu_frame)
-
-// The kinds of gpu_light.
-#define GPU_LIGHT_POINT       0u
-#define GPU_LIGHT_SPOT        1u
-#define GPU_LIGHT_DIRECTIONAL 2u
-
-#define GPU_LIGHTS_MAX 1024 // fills the 64 KiB that a uniform buffer may have
-
-STRUCT_BEGIN(gpu_light)
-    float3 position; // m, world space
-    float inverse_range2;
-    float3 intensity; // cd, or lux when directional
-    uint kind;
-    float3 direction; // unit, the way the light travels
-    float2 cone;      // light_spot_cone()
-STRUCT_END(gpu_light)
 
 // Read as a vertex's attributes.
 STRUCT_BEGIN(gpu_instance)
@@ -99,16 +136,19 @@ STRUCT_BEGIN(gpu_material)
     float3 uv_v[GPU_TEXTURE_COUNT];
 STRUCT_END(gpu_material)
 
-// How the fragment shader of surfaces is specialised: constants 0 to 7.
+// How the fragment shader of surfaces is specialised: constants 0 to 10.
 STRUCT_BEGIN(gpu_surface_constants)
     uint textures;    // bit t: texture t is sampled
     uint general_uv;  // some texture has a transform or uses uv set 1
     uint alpha_mode;  // GPU_ALPHA_
     uint unlit;
     uint environment; // GPU_ENVIRONMENT_
-    uint lights;      // how many; GPU_LIGHTS_ANY = as the frame says
+    uint lights;      // how many punctual ones, all near
     uint tone;        // TONEMAP_ of tonemap.glsl, or GPU_TONE_LINEAR
     uint samples;     // of a pixel
+    uint groups;      // bit g: there are lights of group g, beyond the near ones
+    uint clustered;
+    uint ambient;
 STRUCT_END(gpu_surface_constants)
 
 #define GPU_ALPHA_OPAQUE 0u
@@ -117,7 +157,6 @@ STRUCT_END(gpu_surface_constants)
 #define GPU_ENVIRONMENT_NONE      0u
 #define GPU_ENVIRONMENT_CUBE      1u // diffuse light from the irradiance cube
 #define GPU_ENVIRONMENT_HARMONICS 2u // diffuse light from order-2 spherical harmonics
-#define GPU_LIGHTS_ANY   0xffffffffu
 #define GPU_TONE_LINEAR  0xffu // leave the radiance as it is: something comes after
 
 // Constants of the passes that follow, pushed.
@@ -127,13 +166,12 @@ STRUCT_BEGIN(gpu_resolve)
 STRUCT_END(gpu_resolve)
 
 #ifndef GL_core_profile
-_Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 9 * 12, "gpu_frame");
-_Static_assert(sizeof(gpu_light) == 16 + 16 + 12 + 8, "gpu_light");
-_Static_assert(sizeof(gpu_light) * GPU_LIGHTS_MAX <= 65536, "GPU_LIGHTS_MAX");
+_Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 2 * 9 * 12 + 20 + 8 + 16 + 8, "gpu_frame");
+_Static_assert(sizeof(gpu_light) == 5 * 16 + 12, "gpu_light");
 _Static_assert(sizeof(gpu_instance) == 48, "gpu_instance");
 _Static_assert(sizeof(gpu_material) == 16 + 16 + 16 + 24 + 2 * GPU_TEXTURE_COUNT * 12,
                "gpu_material");
-_Static_assert(sizeof(gpu_surface_constants) == 32, "gpu_surface_constants");
+_Static_assert(sizeof(gpu_surface_constants) == 44, "gpu_surface_constants");
 _Static_assert(sizeof(gpu_resolve) == 20, "gpu_resolve");
 #endif
 

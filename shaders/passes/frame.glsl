@@ -9,8 +9,10 @@ layout(set = 0, binding = 1) uniform samplerCube environment_cube; // prefiltere
 layout(set = 0, binding = 2) uniform sampler2D environment_image;  // equirectangular
 layout(set = 0, binding = 3) uniform sampler2D dfg_table;
 // Uniform, not storage: a CPU device reads storage lane by lane.
-layout(scalar, set = 0, binding = 4) uniform Lights { gpu_light lights[GPU_LIGHTS_MAX]; };
+layout(scalar, set = 0, binding = 4) uniform Near { gpu_light near_lights[GPU_LIGHTS_NEAR]; };
 layout(set = 0, binding = 5) uniform samplerCube irradiance_cube; // over pi
+layout(scalar, set = 0, binding = 6) readonly buffer Lights { gpu_light lights[]; };
+layout(scalar, set = 0, binding = 7) readonly buffer Clusters { uint clusters[]; };
 
 // A direction of the world in the environment's own frame.
 vec3 environment_from_world(vec3 d)

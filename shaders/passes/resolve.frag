@@ -6,7 +6,7 @@
 #include "physics/tonemap.glsl"
 #include "interop/scene.glsl"
 
-layout(constant_id = 0) const uint TONE = 0u;
+layout(constant_id = 6) const uint TONE = 0u;
 
 layout(set = 0, binding = 0) uniform sampler2D picture;
 layout(push_constant, scalar) uniform Push { gpu_resolve push; };

@@ -1,7 +1,6 @@
 // Surfaces: what the material says, and the light that it sends to the eye.  CUTOUT: with
 // holes where alpha is below the cutoff.
 #include "physics/environment.glsl"
-#include "physics/light_punctual.glsl"
 #include "physics/sh.glsl"
 #include "physics/specular_aa.glsl"
 #include "physics/surface.glsl"
@@ -14,7 +13,6 @@ layout(constant_id = 1) const uint GENERAL_UV = 0u;
 layout(constant_id = 2) const uint ALPHA_MODE = 0u;
 layout(constant_id = 3) const uint UNLIT = 0u;
 layout(constant_id = 4) const uint ENVIRONMENT = 1u;
-layout(constant_id = 5) const uint LIGHTS = GPU_LIGHTS_ANY;
 layout(constant_id = 6) const uint TONE = 0u;
 layout(constant_id = 7) const uint SAMPLES = 4u;
 
@@ -32,6 +30,8 @@ layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec4 in_uvs;
 layout(location = 4) in vec4 in_color;
+
+#include "passes/lights.glsl"
 
 layout(location = 0) out vec4 out_color; // premultiplied
 
@@ -95,27 +95,16 @@ surface_material material_here(vec3 base_color)
     return m;
 }
 
-vec3 lit_by(gpu_light light, surface s, vec3 n, vec3 wo)
+float occlusion_here()
 {
-    vec3 wi = -light.direction;
-    float falloff = 1.0;
-    if (light.kind != GPU_LIGHT_DIRECTIONAL) {
-        vec3 to_light = light.position - in_position;
-        float distance2 = dot(to_light, to_light);
-        falloff = light_point(distance2, light.inverse_range2);
-        wi = to_light * inversesqrt(max(distance2, 1e-20));
-        if (light.kind == GPU_LIGHT_SPOT)
-            falloff *= light_spot(-dot(light.direction, wi), light.cone);
-    }
-    return falloff * light.intensity * surface_direct(s, n, wo, wi);
+    float r = SAMPLE(occlusion_texture, GPU_TEXTURE_OCCLUSION, vec4(1.0)).r;
+    return 1.0 + material.occlusion_strength * (r - 1.0);
 }
 
-vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness)
+vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness, float ao)
 {
     vec3 r = reflect(-wo, n);
     float NoV = surface_cosine(n, wo);
-    float ao = 1.0 + material.occlusion_strength *
-                         (SAMPLE(occlusion_texture, GPU_TEXTURE_OCCLUSION, vec4(1.0)).r - 1.0);
     float open = ao;
     if (has(GPU_TEXTURE_OCCLUSION))
         open = environment_specular_occlusion(NoV, ao, roughness * roughness);
@@ -146,23 +135,12 @@ vec3 radiance_to_eye(vec3 base_color)
 
     vec3 light = material.emissive *
                  SAMPLE(emissive_texture, GPU_TEXTURE_EMISSIVE, vec4(1.0)).rgb;
+    float ao = occlusion_here();
     if (ENVIRONMENT != GPU_ENVIRONMENT_NONE)
-        light += lit_by_environment(s, n, wo, m.roughness);
-    // Written out, so that every light is at an offset known to the compiler: a CPU device
-    // reads others lane by lane, at three times the cost.
-#define LIT_BY(i) if (i < LIGHTS) light += lit_by(lights[i], s, n, wo)
-    LIT_BY(0u);
-    LIT_BY(1u);
-    LIT_BY(2u);
-    LIT_BY(3u);
-    LIT_BY(4u);
-    LIT_BY(5u);
-    LIT_BY(6u);
-    LIT_BY(7u);
-#undef LIT_BY
-    if (LIGHTS == GPU_LIGHTS_ANY)
-        for (uint i = 8u; i < frame.light_count; i++)
-            light += lit_by(lights[i], s, n, wo);
+        light += lit_by_environment(s, n, wo, m.roughness, ao);
+    if (AMBIENT != 0u)
+        light += s.lambert * (ao * ambient_here(n));
+    light += lit_by_lights(s, n, wo);
     return light;
 }
 

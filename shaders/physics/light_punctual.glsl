@@ -10,12 +10,18 @@
 // Nearer than this the inverse square is held, lest it overflow: 1 mm.
 static const real LIGHT_MIN_DISTANCE2 = 0.000001f; // m^2
 
-// Inverse square, 1/m^2, with the extension's window max(min(1 - (d / range)^4, 1), 0).
-// `distance2` = d^2 in m^2; `inverse_range2` = 1 / range^2, 0 for an unbounded light.
-static inline real light_point(real distance2, real inverse_range2)
+// The extension's window max(min(1 - (d / range)^4, 1), 0).  `distance2` = d^2 in m^2;
+// `inverse_range2` = 1 / range^2, 0 for an unbounded light.
+static inline real light_window(real distance2, real inverse_range2)
 {
     real x = distance2 * inverse_range2;
-    return clamp(1.0f - x * x, 0.0f, 1.0f) / max(distance2, LIGHT_MIN_DISTANCE2);
+    return clamp(1.0f - x * x, 0.0f, 1.0f);
+}
+
+// Inverse square, 1/m^2, within the window.
+static inline real light_point(real distance2, real inverse_range2)
+{
+    return light_window(distance2, inverse_range2) / max(distance2, LIGHT_MIN_DISTANCE2);
 }
 
 // The extension's precomputed angular falloff: scale and offset of the cosine.

@@ -5,6 +5,7 @@
 
 #define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 #define UNIFORM VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
 
 static ag_status create_layouts(gpu_device *device, bindings *b)
 {
@@ -17,6 +18,8 @@ static ag_status create_layouts(gpu_device *device, bindings *b)
         { 3, IMAGE, 1, fragment, NULL },
         { 4, UNIFORM, 1, fragment, NULL },
         { 5, IMAGE, 1, fragment, NULL },
+        { 6, STORAGE, 1, vertex | fragment, NULL },
+        { 7, STORAGE, 1, fragment, NULL },
     };
     VkDescriptorSetLayoutBinding material[1 + GPU_TEXTURE_COUNT] = { { 0, UNIFORM, 1, fragment,
                                                                        NULL } };
@@ -24,7 +27,7 @@ static ag_status create_layouts(gpu_device *device, bindings *b)
         material[i] = (VkDescriptorSetLayoutBinding) { i, IMAGE, 1, fragment, NULL };
     const VkDescriptorSetLayoutBinding picture[] = { { 0, IMAGE, 1, fragment, NULL } };
 
-    ag_status status = gpu_set_layout_create(device, frame, 6, &b->frame_set);
+    ag_status status = gpu_set_layout_create(device, frame, 8, &b->frame_set);
     if (!status)
         status = gpu_set_layout_create(device, material, 1 + GPU_TEXTURE_COUNT, &b->material_set);
     if (!status)
@@ -61,11 +64,11 @@ static ag_status create_samplers(gpu_device *device, bindings *b)
 
 static ag_status create_sets(gpu_device *device, bindings *b)
 {
-    const VkDescriptorPoolSize sizes[] = { { UNIFORM, 2 }, { IMAGE, 6 } };
+    const VkDescriptorPoolSize sizes[] = { { UNIFORM, 2 }, { IMAGE, 6 }, { STORAGE, 2 } };
     const VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
         .maxSets = 3,
-        .poolSizeCount = 2,
+        .poolSizeCount = 3,
         .pPoolSizes = sizes,
     };
     ag_status status =

@@ -1,6 +1,9 @@
 // One tile of a picture: recorded, drawn, and brought back to the host.
 #include "render/frame.h"
 
+#include "render/body.h"
+#include "render/clusters.h"
+
 #include "physics/color.glsl"
 #include "physics/sampling.glsl"
 
@@ -15,6 +18,14 @@ static uint32_t surface_tone(const picture *p)
     return p->hdr ? GPU_TONE_LINEAR : (uint32_t)p->options->tonemap;
 }
 
+static uint32_t environment_kind(const ag_renderer *r, const picture *p)
+{
+    if (!r->resident.surround.present)
+        return GPU_ENVIRONMENT_NONE;
+    return p->options->quality == AG_QUALITY_FAST ? GPU_ENVIRONMENT_HARMONICS
+                                                  : GPU_ENVIRONMENT_CUBE;
+}
+
 static ag_status surface_pipeline(ag_renderer *r, const picture *p, uint32_t material,
                                   VkPipeline *pipeline)
 {
@@ -23,25 +34,40 @@ static ag_status surface_pipeline(ag_renderer *r, const picture *p, uint32_t mat
         .format = targets_surface_format(&r->targets.desc),
         .constants = r->resident.materials.constants[material],
     };
-    uint32_t lights = r->resident.light_count;
-    if (r->resident.surround.present)
-        key.constants.environment = p->options->quality == AG_QUALITY_FAST
-                                        ? GPU_ENVIRONMENT_HARMONICS
-                                        : GPU_ENVIRONMENT_CUBE;
-    key.constants.lights = lights <= 8 ? lights : GPU_LIGHTS_ANY;
+    if (!key.constants.unlit) {
+        key.constants.environment = environment_kind(r, p);
+        lights_constants(&r->resident.lights, &key.constants);
+    }
     key.constants.tone = surface_tone(p);
     key.constants.samples = r->targets.desc.samples;
-    if (key.constants.unlit)
-        key.constants.environment = key.constants.lights = 0;
     return pipelines_get(r->device, &r->bindings, &r->pipelines, &key, pipeline);
 }
 
-static ag_status pass_pipeline(ag_renderer *r, pipeline_kind kind, VkFormat format,
-                               uint32_t samples, uint32_t tone, VkPipeline *pipeline)
+// Of a pass that draws beside the surfaces, into the same targets.
+static ag_status beside_pipeline(ag_renderer *r, const picture *p, pipeline_kind kind,
+                                 VkPipeline *pipeline)
+{
+    pipeline_key key = {
+        .kind = kind,
+        .format = targets_surface_format(&r->targets.desc),
+        .constants = { .samples = r->targets.desc.samples, .tone = surface_tone(p) },
+    };
+    gpu_surface_constants lit = { 0 };
+    lights_constants(&r->resident.lights, &lit);
+    if (kind == PIPELINE_BACKGROUND) {
+        key.constants.environment = r->resident.surround.present;
+        key.constants.groups = lit.groups & 1u << GPU_LIGHTS_CAP;
+    }
+    return pipelines_get(r->device, &r->bindings, &r->pipelines, &key, pipeline);
+}
+
+// Of a pass over pictures.
+static ag_status pass_pipeline(ag_renderer *r, pipeline_kind kind, VkFormat format, uint32_t tone,
+                               VkPipeline *pipeline)
 {
     const pipeline_key key = { .kind = kind,
                                .format = format,
-                               .constants = { .samples = samples, .tone = tone } };
+                               .constants = { .samples = 1, .tone = tone } };
     return pipelines_get(r->device, &r->bindings, &r->pipelines, &key, pipeline);
 }
 
@@ -70,6 +96,8 @@ static ag_status record_draws(ag_renderer *r, const picture *p, uint32_t first, 
     VkCommandBuffer cmd = r->commands.buffer;
     VkPipeline bound = VK_NULL_HANDLE;
     uint32_t material = UINT32_MAX;
+    if (first < last)
+        vkCmdBindIndexBuffer(cmd, r->resident.geometry.indices.buffer, 0, VK_INDEX_TYPE_UINT32);
     for (uint32_t i = first; i < last; i++) {
         const draw *d = &p->draws.items[i];
         if (d->material != material) {
@@ -95,13 +123,25 @@ static ag_status record_draws(ag_renderer *r, const picture *p, uint32_t first, 
     return AG_OK;
 }
 
+static ag_status record_bodies(ag_renderer *r, const picture *p, bool warm_up)
+{
+    const lights *l = &r->resident.lights;
+    VkPipeline pipeline;
+    if (l->bodies == l->count)
+        return AG_OK;
+    ag_status status = beside_pipeline(r, p, PIPELINE_BODY, &pipeline);
+    if (status)
+        return status;
+    vkCmdBindPipeline(r->commands.buffer, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    body_draw(r->commands.buffer, &r->body, l->bodies, warm_up ? 1 : l->count - l->bodies);
+    return AG_OK;
+}
+
 static ag_status record_background(ag_renderer *r, const picture *p)
 {
     VkCommandBuffer cmd = r->commands.buffer;
     VkPipeline pipeline;
-    ag_status status =
-        pass_pipeline(r, PIPELINE_BACKGROUND, targets_surface_format(&r->targets.desc),
-                      r->targets.desc.samples, surface_tone(p), &pipeline);
+    ag_status status = beside_pipeline(r, p, PIPELINE_BACKGROUND, &pipeline);
     if (status)
         return status;
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
@@ -118,11 +158,11 @@ static ag_status record_scene(ag_renderer *r, const picture *p, bool warm_up)
     const VkDeviceSize offsets[] = { 0, 0 };
     set_area(cmd, desc->width, desc->height, warm_up);
     bind_set(cmd, r->bindings.surfaces, 0, r->bindings.frame);
-    if (p->draws.count) {
+    if (p->draws.count)
         vkCmdBindVertexBuffers(cmd, 0, 2, vertices, offsets);
-        vkCmdBindIndexBuffer(cmd, r->resident.geometry.indices.buffer, 0, VK_INDEX_TYPE_UINT32);
-    }
     ag_status status = record_draws(r, p, 0, p->draws.opaque_count, warm_up);
+    if (!status)
+        status = record_bodies(r, p, warm_up);
     if (!status && p->background)
         status = record_background(r, p);
     if (!status)
@@ -202,7 +242,7 @@ static ag_status record_pass(ag_renderer *r, pipeline_kind kind, uint32_t tone,
 {
     VkCommandBuffer cmd = r->commands.buffer;
     VkPipeline pipeline;
-    ag_status status = pass_pipeline(r, kind, into->desc.format, 1, tone, &pipeline);
+    ag_status status = pass_pipeline(r, kind, into->desc.format, tone, &pipeline);
     if (status)
         return status;
     const float4 nothing = { 0, 0, 0, 0 };
@@ -283,6 +323,22 @@ static void jitter(uint32_t index, uint32_t frames, float out[2])
     out[1] = at[1];
 }
 
+// The same for all frames of a tile.
+static ag_status find_clusters(ag_renderer *r, const picture *p, view_rect tile, uint32_t index,
+                               gpu_frame *frame)
+{
+    lights *l = &r->resident.lights;
+    gpu_surface_constants lit = { 0 };
+    lights_constants(l, &lit);
+    if (!lit.clustered || index > 0)
+        return AG_OK;
+    ag_status status = clusters_write(r->device, &p->view, tile, l, frame);
+    if (!status)
+        bindings_write_buffer(r->device, r->bindings.frame, 7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                              l->clusters.buffer, 0, VK_WHOLE_SIZE);
+    return status;
+}
+
 ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t index)
 {
     ag_status status = gpu_commands_wait(r->device, &r->commands);
@@ -295,6 +351,9 @@ ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t 
     surround_frame(&r->resident.surround, p->scene, frame);
     frame->exposure = p->options->exposure;
     frame->footprint = 1 / sqrtf((float)p->frames);
-    frame->light_count = r->resident.light_count;
+    lights_frame(&r->resident.lights, frame);
+    status = find_clusters(r, p, tile, index, frame);
+    if (status)
+        return status;
     return record_and_submit(r, p, index, false);
 }

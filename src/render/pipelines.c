@@ -23,8 +23,8 @@ static gpu_pipeline_desc describe(const bindings *b, const pipeline_key *key)
         .layout = b->pictures,
         .color_format = (VkFormat)key->format,
         .samples = key->constants.samples,
-        .constants = &key->constants.tone,
-        .constant_count = 1,
+        .constants = (const uint32_t *)&key->constants,
+        .constant_count = sizeof key->constants / 4,
     };
     bool blended = key->constants.alpha_mode == GPU_ALPHA_BLEND;
     switch (key->kind) {
@@ -37,8 +37,12 @@ static gpu_pipeline_desc describe(const bindings *b, const pipeline_key *key)
         desc.has_depth = desc.depth_test = true;
         desc.depth_write = !blended;
         desc.blend = blended ? GPU_BLEND_OVER : GPU_BLEND_NONE;
-        desc.constants = (const uint32_t *)&key->constants;
-        desc.constant_count = sizeof key->constants / 4;
+        break;
+    case PIPELINE_BODY:
+        desc.vertex = shader_body_vert();
+        desc.fragment = shader_body_frag();
+        desc.layout = b->surfaces;
+        desc.has_depth = desc.depth_test = desc.depth_write = true;
         break;
     case PIPELINE_BACKGROUND:
         desc.fragment = shader_background_frag();
@@ -48,7 +52,6 @@ static gpu_pipeline_desc describe(const bindings *b, const pipeline_key *key)
     case PIPELINE_ACCUMULATE:
         desc.fragment = shader_accumulate_frag();
         desc.blend = GPU_BLEND_ADD;
-        desc.constant_count = 0;
         break;
     case PIPELINE_RESOLVE: desc.fragment = shader_resolve_frag(); break;
     }

@@ -8,6 +8,7 @@
 
 typedef enum pipeline_kind {
     PIPELINE_SURFACE,
+    PIPELINE_BODY,       // of a light
     PIPELINE_BACKGROUND, // the environment behind everything
     PIPELINE_ACCUMULATE, // a picture into the sum
     PIPELINE_RESOLVE,    // radiance to the picture that leaves
@@ -17,7 +18,7 @@ typedef enum pipeline_kind {
 typedef struct pipeline_key {
     uint32_t kind;                   // pipeline_kind
     uint32_t format;                 // VkFormat drawn into
-    gpu_surface_constants constants; // but for surfaces, only .tone and .samples count
+    gpu_surface_constants constants; // what the kind does not read stays 0
 } pipeline_key;
 
 typedef struct pipelines {

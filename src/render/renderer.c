@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "image/image.h"
+#include "render/body.h"
 #include "render/frame.h"
 #include "render/pixels.h"
 
@@ -33,6 +34,8 @@ ag_status ag_renderer_create(ag_device *device, ag_renderer **out)
     if (!status)
         status = gpu_buffer_create(device, sizeof(gpu_frame), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                    GPU_MEMORY_UPLOAD, &r->frame);
+    if (!status)
+        status = body_create(device, &r->body);
     if (status) {
         ag_renderer_destroy(r);
         return status;
@@ -51,6 +54,7 @@ void ag_renderer_destroy(ag_renderer *r)
     pipelines_destroy(r->device, &r->pipelines);
     gpu_buffer_destroy(r->device, &r->frame);
     gpu_buffer_destroy(r->device, &r->instances);
+    gpu_buffer_destroy(r->device, &r->body);
     bindings_destroy(r->device, &r->bindings);
     free(r);
 }
@@ -127,14 +131,19 @@ static void write_frame_set(ag_renderer *r)
 {
     const VkDescriptorSet set = r->bindings.frame;
     const surround *s = &r->resident.surround;
+    const lights *l = &r->resident.lights;
     bindings_write_buffer(r->device, set, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r->frame.buffer, 0,
                           VK_WHOLE_SIZE);
     bindings_write_image(r->device, set, 1, s->cube.view, r->bindings.linear);
     bindings_write_image(r->device, set, 2, s->image.view, r->bindings.panorama);
     bindings_write_image(r->device, set, 3, s->dfg.view, r->bindings.linear);
-    bindings_write_buffer(r->device, set, 4, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                          r->resident.lights.buffer, 0, VK_WHOLE_SIZE);
+    bindings_write_buffer(r->device, set, 4, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, l->near.buffer, 0,
+                          VK_WHOLE_SIZE);
     bindings_write_image(r->device, set, 5, s->irradiance.view, r->bindings.linear);
+    bindings_write_buffer(r->device, set, 6, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, l->all.buffer, 0,
+                          VK_WHOLE_SIZE);
+    bindings_write_buffer(r->device, set, 7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, l->clusters.buffer,
+                          0, VK_WHOLE_SIZE);
     if (r->targets.radiance.view)
         bindings_write_image(r->device, r->bindings.picture, 0, r->targets.radiance.view,
                              r->bindings.linear);
@@ -178,6 +187,8 @@ static ag_status prepare(ag_renderer *r, const picture *p, ag_render_stats *stat
         status = resident_surround(r, p->scene, p->background, stats);
     if (!status)
         status = targets_ensure(r->device, &desc, &r->targets);
+    if (!status)
+        status = lights_write(r->device, p->scene, o->exposure, &r->resident.lights);
     if (!status)
         status = upload_instances(r, &p->draws);
     if (status)
@@ -276,7 +287,7 @@ static void tell_choices(const ag_renderer *r, const picture *p, const ag_render
               "drawn: %u instances in %u draws, %llu triangles, %u lights, %u tile%s, %u "
               "sample%s a pixel",
               stats->instances, stats->draws, (unsigned long long)stats->triangles,
-              r->resident.light_count, stats->tiles, stats->tiles == 1 ? "" : "s", stats->samples,
+              r->resident.lights.count, stats->tiles, stats->tiles == 1 ? "" : "s", stats->samples,
               stats->samples == 1 ? "" : "s");
 }
 

@@ -5,6 +5,7 @@
 #include "gpu/commands.h"
 #include "render/bindings.h"
 #include "render/geometry.h"
+#include "render/lights.h"
 #include "render/materials.h"
 #include "render/pipelines.h"
 #include "render/surround.h"
@@ -18,9 +19,8 @@ typedef struct resident {
     geometry geometry;
     textures textures;
     materials materials;
-    gpu_buffer lights; // gpu_light
-    uint32_t light_count;
     surround surround;
+    lights lights; // as the last picture needed them
 } resident;
 
 struct ag_renderer {
@@ -31,6 +31,7 @@ struct ag_renderer {
     resident resident;
     gpu_buffer frame;     // gpu_frame
     gpu_buffer instances; // gpu_instance
+    gpu_buffer body;      // indices of the grid that a light's body is
     gpu_commands commands;
 };
 

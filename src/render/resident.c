@@ -4,58 +4,14 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "image/image.h"
-#include "physics/light_punctual.glsl"
 
-#include <math.h>
 #include <stdlib.h>
-
-// Finite whatever the scene says: infinite times nothing is not a number.
-static float bounded(float x)
-{
-    return fminf(x, 1e30f);
-}
-
-static gpu_light pack_light(const ag_light_desc *d)
-{
-    vec2 cone = light_spot_cone(cosf(d->cone_inner_rad), cosf(d->cone_outer_rad));
-    return (gpu_light) {
-        .position = { d->position[0], d->position[1], d->position[2] },
-        .inverse_range2 = d->range_m > 0 ? bounded(1 / (d->range_m * d->range_m)) : 0,
-        .intensity = { bounded(d->color[0] * d->intensity), bounded(d->color[1] * d->intensity),
-                       bounded(d->color[2] * d->intensity) },
-        .kind = d->kind == AG_LIGHT_DIRECTIONAL ? GPU_LIGHT_DIRECTIONAL
-                : d->kind == AG_LIGHT_SPOT      ? GPU_LIGHT_SPOT
-                                                : GPU_LIGHT_POINT,
-        .direction = { d->direction[0], d->direction[1], d->direction[2] },
-        .cone = { cone[0], cone[1] },
-    };
-}
-
-static ag_status make_lights(gpu_device *device, const ag_scene *scene, resident *r)
-{
-    r->light_count = GPU_LIGHTS_MAX;
-    if (scene->lights_count < GPU_LIGHTS_MAX)
-        r->light_count = (uint32_t)scene->lights_count;
-    else if (scene->lights_count > GPU_LIGHTS_MAX)
-        log_write(&device->log, AG_LOG_WARNING, "of %zu lights only the first %d are shown",
-                  scene->lights_count, GPU_LIGHTS_MAX);
-    ag_status status =
-        gpu_buffer_create(device, GPU_LIGHTS_MAX * sizeof(gpu_light),
-                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, GPU_MEMORY_UPLOAD, &r->lights);
-    if (status)
-        return status;
-    gpu_light *lights = r->lights.memory.mapped;
-    for (uint32_t i = 0; i < r->light_count; i++)
-        lights[i] = pack_light(&scene->lights[i]);
-    return AG_OK;
-}
 
 static void destroy_things(gpu_device *device, resident *r)
 {
     geometry_destroy(device, &r->geometry);
     materials_destroy(device, &r->materials);
     textures_destroy(device, &r->textures);
-    gpu_buffer_destroy(device, &r->lights);
     r->scene = 0;
 }
 
@@ -82,7 +38,7 @@ static ag_status make_things(ag_renderer *renderer, const ag_scene *scene, bool 
         status = textures_create(device, scene, release, upload, &r->textures);
     if (!status)
         status = materials_create(device, &renderer->bindings, scene, &r->textures, &r->materials);
-    return status ? status : make_lights(device, scene, r);
+    return status;
 }
 
 ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool release,
@@ -157,5 +113,6 @@ void resident_destroy(gpu_device *device, resident *r)
 {
     destroy_things(device, r);
     surround_destroy(device, &r->surround);
+    lights_destroy(device, &r->lights);
     *r = (resident) { 0 };
 }

@@ -10,6 +10,12 @@ static const uint32_t surface_frag[] =
 static const uint32_t cutout_frag[] =
 #include "cutout.frag.inc"
     ;
+static const uint32_t body_vert[] =
+#include "body.vert.inc"
+    ;
+static const uint32_t body_frag[] =
+#include "body.frag.inc"
+    ;
 static const uint32_t fullscreen_vert[] =
 #include "fullscreen.vert.inc"
     ;
@@ -36,6 +42,16 @@ gpu_shader shader_surface_frag(void)
 gpu_shader shader_cutout_frag(void)
 {
     return (gpu_shader) { cutout_frag, sizeof cutout_frag };
+}
+
+gpu_shader shader_body_vert(void)
+{
+    return (gpu_shader) { body_vert, sizeof body_vert };
+}
+
+gpu_shader shader_body_frag(void)
+{
+    return (gpu_shader) { body_frag, sizeof body_frag };
 }
 
 gpu_shader shader_fullscreen_vert(void)

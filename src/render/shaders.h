@@ -7,6 +7,8 @@
 gpu_shader shader_surface_vert(void);
 gpu_shader shader_surface_frag(void);
 gpu_shader shader_cutout_frag(void);
+gpu_shader shader_body_vert(void);
+gpu_shader shader_body_frag(void);
 gpu_shader shader_fullscreen_vert(void);
 gpu_shader shader_background_frag(void);
 gpu_shader shader_accumulate_frag(void);

@@ -127,6 +127,8 @@ void view_frame(const view *v, view_rect tile, const float jitter[2], gpu_frame 
         rays[1][i] = share_x * v->half_x * v->right[i];
         rays[2][i] = -share_y * v->half_y * v->up[i];
     }
+    const float *f = v->forward, *eye = v->eye;
+    frame->depth = (float4) { f[0], f[1], f[2], -(f[0] * eye[0] + f[1] * eye[1] + f[2] * eye[2]) };
     memcpy(&frame->eye, v->eye, sizeof v->eye);
     memcpy(&frame->ray_center, rays[0], sizeof rays[0]);
     memcpy(&frame->ray_x, rays[1], sizeof rays[1]);

@@ -1,0 +1,240 @@
+// The lights of a scene on the device.
+#include "render/lights.h"
+
+#include "base/log.h"
+#include "physics/ambient.glsl"
+#include "physics/light_punctual.glsl"
+
+#include <string.h>
+
+// Up to this many lights, every pixel is lit by all.
+enum { FEW = 16 };
+
+// ---- One light -----------------------------------------------------------------
+
+static uint32_t kind_of(ag_light_kind kind)
+{
+    switch (kind) {
+    case AG_LIGHT_SPOT: return GPU_LIGHT_SPOT;
+    case AG_LIGHT_DIRECTIONAL: return GPU_LIGHT_DIRECTIONAL;
+    case AG_LIGHT_SUN: return GPU_LIGHT_SUN;
+    case AG_LIGHT_SPHERE: return GPU_LIGHT_SPHERE;
+    case AG_LIGHT_RECT: return GPU_LIGHT_RECT;
+    case AG_LIGHT_DISK: return GPU_LIGHT_DISK;
+    case AG_LIGHT_TUBE: return GPU_LIGHT_TUBE;
+    default: return GPU_LIGHT_POINT;
+    }
+}
+
+static int group_of(uint32_t kind)
+{
+    switch (kind) {
+    case GPU_LIGHT_SUN:
+    case GPU_LIGHT_SPHERE: return GPU_LIGHTS_CAP;
+    case GPU_LIGHT_RECT: return GPU_LIGHTS_RECT;
+    case GPU_LIGHT_DISK: return GPU_LIGHTS_DISK;
+    case GPU_LIGHT_TUBE: return GPU_LIGHTS_TUBE;
+    default: return GPU_LIGHTS_PUNCTUAL;
+    }
+}
+
+// Finite whatever the scene says: infinite times nothing is not a number.
+static float bounded(float x)
+{
+    return fminf(x, 1e30f);
+}
+
+static float3 scaled(const float v[3], float s)
+{
+    return (float3) { bounded(v[0] * s), bounded(v[1] * s), bounded(v[2] * s) };
+}
+
+// m^2, what the body's radiance is the intensity over; 0 without a body.
+static float spread_of(const ag_light_desc *d)
+{
+    float sine;
+    switch (d->kind) {
+    case AG_LIGHT_SPHERE: return PI * d->radius_m * d->radius_m;
+    case AG_LIGHT_SUN: sine = sinf(d->angular_radius_rad); return PI * sine * sine;
+    case AG_LIGHT_DISK:
+    case AG_LIGHT_RECT:
+    case AG_LIGHT_TUBE: return 1;
+    default: return 0;
+    }
+}
+
+// The half axes of what has two.
+static void set_axes(const ag_light_desc *d, gpu_light *light)
+{
+    const float *to = d->direction, *up = d->up;
+    const float right[3] = { to[1] * up[2] - to[2] * up[1], to[2] * up[0] - to[0] * up[2],
+                             to[0] * up[1] - to[1] * up[0] };
+    float half_x = d->radius_m, half_y = d->radius_m;
+    if (d->kind == AG_LIGHT_RECT) {
+        half_x = 0.5f * d->width_m;
+        half_y = 0.5f * d->height_m;
+    }
+    light->x = scaled(right, half_x);
+    light->y = scaled(up, half_y);
+    if (d->kind == AG_LIGHT_TUBE)
+        light->x = scaled(to, 0.5f * d->length_m);
+}
+
+static gpu_light pack(const ag_light_desc *d)
+{
+    const float *p = d->position, *to = d->direction;
+    float spread = spread_of(d);
+    gpu_light light = {
+        .position = { p[0], p[1], p[2] },
+        .inverse_range2 = d->range_m > 0 ? bounded(1 / (d->range_m * d->range_m)) : 0,
+        .intensity = scaled(d->color, d->intensity),
+        .kind = kind_of(d->kind),
+        .direction = { to[0], to[1], to[2] },
+        .radius = d->radius_m,
+    };
+    if (spread > 0 && !d->hidden)
+        light.radiance = scaled(d->color, d->intensity / spread);
+    vec2 cone = light_spot_cone(cosf(d->cone_inner_rad), cosf(d->cone_outer_rad));
+    light.cone_scale = cone[0];
+    light.cone_offset = cone[1];
+    if (d->kind == AG_LIGHT_SUN) {
+        light.radius = sinf(d->angular_radius_rad);
+        light.cone_scale = cosf(d->angular_radius_rad);
+    }
+    set_axes(d, &light);
+    return light;
+}
+
+// ---- All of them -----------------------------------------------------------------
+
+static float greatest(float3 c)
+{
+    return fmaxf(c.x, fmaxf(c.y, c.z));
+}
+
+// A light beyond whose range all of `count` such together would add less than half a step of
+// an 8-bit picture.  Only where light falls off as a point's: a mirror shows a body from afar.
+static void bound_range(gpu_light *light, size_t count, float exposure)
+{
+    if (light->inverse_range2 > 0 || light->kind > GPU_LIGHT_SPOT)
+        return;
+    float least = 0.5f / 255 / (float)count;
+    light->inverse_range2 =
+        bounded(least / fmaxf(greatest(light->intensity) * exposure / PI, 1e-30f));
+}
+
+static void add_ambient(const ag_light_desc *d, lights *l)
+{
+    const float one[3] = { 1, 1, 1 };
+    float terms[9][3] = { { 1, 1, 1 } };
+    if (d->kind == AG_LIGHT_HARMONICS)
+        memcpy(terms, d->harmonics, sizeof terms);
+    const float *color = d->color;
+    if (d->kind == AG_LIGHT_HEMISPHERIC) {
+        const float *u = d->color, *g = d->ground_color, *axis = d->direction;
+        ambient_light a = ambient_from_hemispheric(vec3(u[0], u[1], u[2]), vec3(g[0], g[1], g[2]),
+                                                   vec3(axis[0], axis[1], axis[2]));
+        for (int c = 0; c < 3; c++) {
+            terms[0][c] = a.c0[c];
+            terms[1][c] = a.cx[c];
+            terms[2][c] = a.cy[c];
+            terms[3][c] = a.cz[c];
+        }
+        color = one;
+    }
+    for (int i = 0; i < 9; i++) {
+        l->ambient[i].x += bounded(terms[i][0] * color[0] * d->intensity);
+        l->ambient[i].y += bounded(terms[i][1] * color[1] * d->intensity);
+        l->ambient[i].z += bounded(terms[i][2] * color[2] * d->intensity);
+    }
+    l->ambient_present = true;
+}
+
+static size_t count_placed(const ag_scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->lights_count; i++)
+        count += !light_is_ambient(scene->lights[i].kind);
+    return count;
+}
+
+// In the order of their kinds.
+static void place(const ag_scene *scene, size_t count, float exposure, lights *l)
+{
+    gpu_light *out = l->all.memory.mapped;
+    l->bodies = (uint32_t)count;
+    l->count = 0;
+    for (uint32_t kind = 0; kind <= GPU_LIGHT_TUBE; kind++) {
+        if (kind == GPU_LIGHT_SPHERE)
+            l->bodies = l->count;
+        for (size_t i = 0; i < scene->lights_count; i++) {
+            const ag_light_desc *d = &scene->lights[i];
+            if (light_is_ambient(d->kind) || kind_of(d->kind) != kind)
+                continue;
+            gpu_light *light = &out[l->count++];
+            *light = pack(d);
+            if (count > FEW)
+                bound_range(light, count, exposure);
+        }
+        for (int group = group_of(kind); group < GPU_LIGHT_GROUPS; group++)
+            l->ends[group] = l->count;
+    }
+}
+
+ag_status lights_write(gpu_device *device, const ag_scene *scene, float exposure, lights *l)
+{
+    size_t count = count_placed(scene);
+    ag_status status =
+        gpu_buffer_ensure(device, GPU_LIGHTS_NEAR * sizeof(gpu_light),
+                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, GPU_MEMORY_UPLOAD, &l->near);
+    if (!status)
+        status = gpu_buffer_ensure(device, count * sizeof(gpu_light),
+                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, GPU_MEMORY_UPLOAD, &l->all);
+    if (!status)
+        status = gpu_buffer_ensure(device, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, GPU_MEMORY_UPLOAD,
+                                   &l->clusters);
+    if (status)
+        return status;
+    place(scene, count, exposure, l);
+    uint32_t punctual = l->ends[GPU_LIGHTS_PUNCTUAL];
+    memcpy(l->near.memory.mapped, l->all.memory.mapped,
+           (punctual < GPU_LIGHTS_NEAR ? punctual : GPU_LIGHTS_NEAR) * sizeof(gpu_light));
+    l->ambient_present = false;
+    memset(l->ambient, 0, sizeof l->ambient);
+    for (size_t i = 0; i < scene->lights_count; i++)
+        if (light_is_ambient(scene->lights[i].kind))
+            add_ambient(&scene->lights[i], l);
+    return AG_OK;
+}
+
+void lights_destroy(gpu_device *device, lights *l)
+{
+    gpu_buffer_destroy(device, &l->near);
+    gpu_buffer_destroy(device, &l->all);
+    gpu_buffer_destroy(device, &l->clusters);
+    *l = (lights) { 0 };
+}
+
+// ---- For a frame -----------------------------------------------------------------
+
+void lights_constants(const lights *l, gpu_surface_constants *constants)
+{
+    uint32_t punctual = l->ends[GPU_LIGHTS_PUNCTUAL], first = 0;
+    bool near = l->count <= FEW && punctual <= GPU_LIGHTS_NEAR;
+    constants->lights = near ? punctual : 0;
+    constants->clustered = l->count > FEW;
+    constants->ambient = l->ambient_present;
+    constants->groups = 0;
+    for (int group = 0; group < GPU_LIGHT_GROUPS; group++) {
+        if (l->ends[group] > first && !(near && group == GPU_LIGHTS_PUNCTUAL))
+            constants->groups |= 1u << group;
+        first = l->ends[group];
+    }
+}
+
+void lights_frame(const lights *l, gpu_frame *frame)
+{
+    frame->first_body = l->bodies;
+    memcpy(frame->light_ends, l->ends, sizeof l->ends);
+    memcpy(frame->ambient, l->ambient, sizeof l->ambient);
+}
