@@ -328,6 +328,10 @@ typedef struct ag_extension_info {
 } ag_extension_info;
 AG_API bool ag_scene_extension(const ag_scene *scene, size_t index, ag_extension_info *info);
 
+// Light `index` (from 0) as it was added, defaults filled in and directions made unit; false
+// past the last.
+AG_API bool ag_scene_light(const ag_scene *scene, size_t index, ag_light_desc *desc);
+
 // Camera `index` (from 0) as it was added, defaults filled in; false past the last.
 // `name` is borrowed: it lives as long as the scene, and may be NULL.
 AG_API bool ag_scene_camera(const ag_scene *scene, size_t index, ag_camera_desc *desc);

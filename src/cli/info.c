@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "console.h"
 #include "json.h"
+#include "lights.h"
 #include "text.h"
 #include "values.h"
 
@@ -43,6 +44,33 @@ static void print_cameras(const ag_scene *scene)
                camera.height_m > 0 ? "orthographic" : "perspective");
 }
 
+static void print_sizes(const ag_light_desc *l)
+{
+    const struct {
+        const char *name;
+        float metres;
+    } sizes[] = { { "radius", l->radius_m },
+                  { "width", l->width_m },
+                  { "height", l->height_m },
+                  { "length", l->length_m } };
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        if (sizes[i].metres > 0)
+            printf(", %s %g m", sizes[i].name, (double)sizes[i].metres);
+}
+
+static void print_lights(const ag_scene *scene)
+{
+    ag_light_desc l;
+    for (size_t i = 0; ag_scene_light(scene, i, &l); i++) {
+        printf("  light %zu: %s, %g %s", i, light_kind_word(l.kind), (double)l.intensity,
+               light_unit(l.kind));
+        print_sizes(&l);
+        puts(l.hidden ? ", hidden" : "");
+    }
+    if (ag_scene_exposure(scene) != 1)
+        printf("  exposure    %g\n", (double)ag_scene_exposure(scene));
+}
+
 static void print_extensions(const ag_scene *scene)
 {
     ag_extension_info e;
@@ -68,6 +96,7 @@ static void print_text(const char *input, const ag_scene *scene)
            (double)b[0], (double)b[1], (double)b[2]);
     printf("  read in     %.1f ms, of which textures %.1f ms\n", s.load_ms + s.decode_ms,
            s.decode_ms);
+    print_lights(scene);
     print_cameras(scene);
     print_extensions(scene);
 }
@@ -88,7 +117,6 @@ static void json_counts(json *j, const ag_scene_summary *s)
     json_count(j, "vertices", s->vertices);
     json_count(j, "materials", s->materials);
     json_count(j, "textures", s->textures);
-    json_count(j, "lights", s->lights);
     json_point(j, "bounds_min", s->bounds_min);
     json_point(j, "bounds_max", s->bounds_max);
     json_open(j, "ms", '{');
@@ -108,6 +136,29 @@ static void json_cameras(json *j, const ag_scene *scene)
         json_close(j, '}');
     }
     json_close(j, ']');
+}
+
+static void json_lights(json *j, const ag_scene *scene)
+{
+    ag_light_desc l;
+    json_open(j, "lights", '[');
+    for (size_t i = 0; ag_scene_light(scene, i, &l); i++) {
+        json_open(j, NULL, '{');
+        json_text(j, "kind", light_kind_word(l.kind));
+        json_real(j, "intensity", (double)l.intensity);
+        json_text(j, "unit", light_unit(l.kind));
+        json_point(j, "color", l.color);
+        json_point(j, "position", l.position);
+        json_point(j, "direction", l.direction);
+        json_real(j, "radius", (double)l.radius_m);
+        json_real(j, "width", (double)l.width_m);
+        json_real(j, "height", (double)l.height_m);
+        json_real(j, "length", (double)l.length_m);
+        json_bool(j, "hidden", l.hidden);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_real(j, "exposure", (double)ag_scene_exposure(scene));
 }
 
 static void json_extensions(json *j, const ag_scene *scene)
@@ -131,6 +182,7 @@ static void print_json(const char *input, const ag_scene *scene, const console *
     json_open(&j, NULL, '{');
     json_text(&j, "input", input);
     json_counts(&j, &s);
+    json_lights(&j, scene);
     json_cameras(&j, scene);
     json_extensions(&j, scene);
     json_open(&j, "warnings", '[');
@@ -187,7 +239,7 @@ static exit_code run(int argc, char **argv)
 const command command_info = {
     .name = "info",
     .operands = "FILE|demo:NAME",
-    .about = "tell what is in a file: meshes, materials, cameras, extensions",
+    .about = "tell what is in a file: meshes, materials, lights, cameras, extensions",
     .lesson = "Triangles and vertices are counted as drawn, summed over the instances.  What the\n"
               "file has and Argand does not support is named.\n",
     .options = options,

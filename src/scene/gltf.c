@@ -89,7 +89,9 @@ static ag_status fill_scene(gltf_file *file)
         status = gltf_textures_add(file);
     if (!status)
         status = gltf_materials_add(file);
-    return status ? status : gltf_instances_add(file);
+    if (!status)
+        status = gltf_instances_add(file);
+    return status ? status : gltf_exposure_read(file);
 }
 
 ag_status gltf_import(ag_scene *scene, const char *path, void *bytes, size_t size,

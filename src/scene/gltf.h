@@ -50,11 +50,21 @@ typedef struct gltf_accessor {
     const uint8_t *sparse_values;  // tightly packed
 } gltf_accessor;
 
+// ---- gltf_light.c: the extensions that hold lights, each in a list of its own --------
+
+typedef enum gltf_light_extension {
+    GLTF_LIGHT_PUNCTUAL,
+    GLTF_LIGHT_AREA,
+    GLTF_LIGHT_ARGAND,
+    GLTF_LIGHT_EXTENSIONS,
+} gltf_light_extension;
+
 // ---- gltf_node.c ---------------------------------------------------------------------
 
 typedef struct gltf_node {
-    uint32_t parent, mesh, skin, camera, light; // GLTF_NONE = none
-    double world[16];                           // column major; local until resolved
+    uint32_t parent, mesh, skin, camera;   // GLTF_NONE = none
+    uint32_t light[GLTF_LIGHT_EXTENSIONS]; // the same
+    double world[16];                      // column major; local until resolved
 } gltf_node;
 
 typedef struct gltf_skin {
@@ -96,7 +106,8 @@ enum {
     GLTF_WARNED_IMAGE = 64,
     GLTF_WARNED_ROTATION = 128,
     GLTF_WARNED_SKIN = 256,
-    GLTF_WARNED_LIGHT = 512,
+    GLTF_WARNED_EXTRAS = 512,
+    GLTF_WARNED_SPOT = 1024,
 };
 
 typedef struct gltf_file {
@@ -124,7 +135,8 @@ typedef struct gltf_file {
     gltf_image *images;
     gltf_material *materials;
     size_t buffer_count, view_count, accessor_count, node_count, skin_count, texture_count,
-        image_count, material_count, mesh_count, camera_count, light_count;
+        image_count, material_count, mesh_count, camera_count;
+    size_t light_count[GLTF_LIGHT_EXTENSIONS];
     uint32_t *reached; // nodes of the chosen scene, parents first
     size_t reached_count;
     ag_mesh **meshes;    // per mesh, per primitive: what was made of it for plain nodes
@@ -214,8 +226,9 @@ AG_CHECK ag_status gltf_images_decode(gltf_file *file);  // on all cores
 AG_CHECK ag_status gltf_textures_add(gltf_file *file);
 AG_CHECK ag_status gltf_materials_add(gltf_file *file);
 AG_CHECK ag_status gltf_instances_add(gltf_file *file);
-AG_CHECK ag_status gltf_light_add(gltf_file *file, uint32_t node);
+AG_CHECK ag_status gltf_lights_add(gltf_file *file, uint32_t node);
 AG_CHECK ag_status gltf_camera_add(gltf_file *file, uint32_t node);
+AG_CHECK ag_status gltf_exposure_read(gltf_file *file); // into the scene; the last step
 
 AG_CHECK ag_status gltf_progress(gltf_file *file, const char *stage, double fraction);
 
@@ -286,6 +299,23 @@ AG_CHECK ag_status gltf_skin_apply(const gltf_at *primitive, uint32_t skin, gltf
 // there is nothing to draw; *posed says that it is in world space.
 AG_CHECK ag_status gltf_primitive_add(const gltf_at *primitive, uint32_t node, ag_mesh *mesh,
                                       bool *posed);
+
+// ---- Lights --------------------------------------------------------------------------------
+
+AG_CHECK ag_status gltf_lights_count(gltf_file *file);                      // fills light_count
+AG_CHECK ag_status gltf_lights_of_node(const gltf_at *at, gltf_node *node); // which it holds
+
+// A word of `type`; a list ends with NULL.
+typedef struct gltf_light_kind {
+    const char *type;
+    ag_light_kind kind;
+} gltf_light_kind;
+AG_CHECK ag_status gltf_light_read_kind(const gltf_at *light, const gltf_light_kind *kinds,
+                                        ag_light_kind *kind);
+
+// Read what each extension has besides colour and intensity.
+AG_CHECK ag_status gltf_light_read_area(const gltf_at *light, ag_light_desc *desc);
+AG_CHECK ag_status gltf_light_read_argand(const gltf_at *light, ag_light_desc *desc);
 
 // ---- gltf_matrix.c: column-major 4x4 in double -----------------------------------------------
 

@@ -61,8 +61,8 @@ static ag_status add_node(gltf_file *file, const gltf_at *meshes, uint32_t index
     ag_status status = AG_OK;
     if (node->mesh != GLTF_NONE)
         status = add_mesh(file, meshes, index);
-    if (!status && node->light != GLTF_NONE)
-        status = gltf_light_add(file, index);
+    if (!status)
+        status = gltf_lights_add(file, index);
     if (!status && node->camera != GLTF_NONE)
         status = gltf_camera_add(file, index);
     return status;

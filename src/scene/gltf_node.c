@@ -53,19 +53,10 @@ static ag_status read_local(const gltf_at *at, double m[16])
     return status;
 }
 
-static ag_status read_light(const gltf_at *at, gltf_node *node)
-{
-    gltf_at light;
-    ag_status status = gltf_extension(at, "KHR_lights_punctual", &light);
-    if (status || !light.json)
-        return status;
-    return gltf_index(&light, "light", at->file->light_count, "lights", &node->light);
-}
-
 static ag_status read_node(const gltf_at *at, gltf_node *node)
 {
     gltf_file *file = at->file;
-    node->mesh = node->skin = node->camera = node->light = GLTF_NONE;
+    node->mesh = node->skin = node->camera = GLTF_NONE;
     ag_status status = read_local(at, node->world);
     if (!status)
         status = gltf_index(at, "mesh", file->mesh_count, "meshes", &node->mesh);
@@ -73,7 +64,7 @@ static ag_status read_node(const gltf_at *at, gltf_node *node)
         status = gltf_index(at, "skin", file->skin_count, "skins", &node->skin);
     if (!status)
         status = gltf_index(at, "camera", file->camera_count, "cameras", &node->camera);
-    return status ? status : read_light(at, node);
+    return status ? status : gltf_lights_of_node(at, node);
 }
 
 static ag_status link_children(const gltf_at *at)
@@ -163,16 +154,14 @@ static ag_status count_items(const gltf_at *object, const char *key, size_t *cou
 
 static ag_status count_what_nodes_hold(gltf_file *file)
 {
-    gltf_at root = gltf_root(file), lights;
+    gltf_at root = gltf_root(file);
     ag_status status = count_items(&root, "meshes", &file->mesh_count);
     if (!status)
         status = count_items(&root, "cameras", &file->camera_count);
     if (!status)
         status = count_items(&root, "skins", &file->skin_count);
     if (!status)
-        status = gltf_extension(&root, "KHR_lights_punctual", &lights);
-    if (!status)
-        status = count_items(&lights, "lights", &file->light_count);
+        status = gltf_lights_count(file);
     if (status)
         return status;
     file->skins = calloc(file->skin_count + 1, sizeof *file->skins);

@@ -106,6 +106,14 @@ ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_ligh
     return AG_OK;
 }
 
+bool ag_scene_light(const ag_scene *scene, size_t index, ag_light_desc *desc)
+{
+    if (index >= scene->lights_count)
+        return false;
+    *desc = scene->lights[index];
+    return true;
+}
+
 // Order l is scaled by A_l / pi: 1, 2/3, 1/4; the rest is the basis' own factor.
 void ag_light_harmonics(const float radiance[9][3], float harmonics[9][3])
 {

@@ -154,6 +154,17 @@ grep -q 'XYZ_materials_plaid: not supported' out || fail "info names what is not
 "$argand" info "$triangle" --json >out 2>err || fail "info --json"
 "$json" out triangles=1 meshes=1 cameras.0.name=front extensions.1.supported=false warnings ||
     fail "info --json"
+sed 's/"KHR_materials_unlit"/"ARGAND_lights"/; s/"name": "front"$/&, "extensions": {'\
+'"ARGAND_lights": {"light": 0}}/; s/^ "meshes"/ "extensions": {"ARGAND_lights": {"lights": ['\
+'{"type": "sphere", "radius": 0.5, "intensity": 9}], "exposure": {"factor": 2}}},&/' \
+    "$triangle" >lamp.gltf
+"$argand" info lamp.gltf >out 2>err || fail "info of a lamp"
+grep -qx '  light 0: sphere, 9 cd, radius 0.5 m' out || fail "info names the light"
+grep -qx '  exposure    2' out || fail "info names the exposure"
+"$argand" info lamp.gltf --json >out 2>err || fail "info --json of a lamp"
+"$json" out lights.0.kind=sphere lights.0.radius=0.5 lights.0.position exposure=2 ||
+    fail "info --json lacks the light"
+rm lamp.gltf
 # A name that is not UTF-8 and has quotes must not break the JSON.
 odd=$(printf 'a\377"\\\t.gltf')
 cp "$triangle" "$odd"

@@ -1,4 +1,4 @@
-// Nodes, scenes, cameras and lights.
+// Nodes, scenes and cameras.
 #include "gltf_kit.h"
 
 #include <math.h>
@@ -211,66 +211,6 @@ static void bad_cameras(void **state)
               kit_json(",'scenes':[{'nodes':[0]}],'cameras':[%s]", cases[i].camera));
 }
 
-static const char *with_lights(const char *lights)
-{
-    return kit_json(",'scenes':[{'nodes':[0]}],'extensionsUsed':['KHR_lights_punctual'],"
-                    "'extensions':{'KHR_lights_punctual':{'lights':[%s]}}",
-                    lights);
-}
-
-static void lights(void **state)
-{
-    kit *k = *state;
-    const char *nodes = "{'mesh':0,'children':[1,2,3,4]},"
-                        "{'translation':[1,2,3],'extensions':{'KHR_lights_punctual':{'light':0}}},"
-                        "{'rotation':[-0.70710678118,0,0,0.70710678118],"
-                        "'extensions':{'KHR_lights_punctual':{'light':1}}},"
-                        "{'extensions':{'KHR_lights_punctual':{'light':2}}},"
-                        "{'extensions':{'KHR_lights_punctual':{'light':3}}}";
-    loads(k, nodes,
-          with_lights("{'type':'point','color':[1,0.5,0.25],'intensity':100,'range':7},"
-                      "{'type':'directional','intensity':3},"
-                      "{'type':'spot','spot':{'innerConeAngle':0.2,'outerConeAngle':0.4}},"
-                      "{'type':'point','color':[0,0,0]}"),
-          0);
-    assert_int_equal(k->scene->lights_count, 3); // a black one gives no light
-    const ag_light_desc *l = k->scene->lights;
-    assert_int_equal(l[0].kind, AG_LIGHT_POINT);
-    for (int i = 0; i < 3; i++)
-        kit_near(l[0].position[i], i + 1, 0);
-    kit_near(l[0].color[2], 0.25, 0);
-    kit_near(l[0].intensity, 100, 0);
-    kit_near(l[0].range_m, 7, 0);
-    assert_int_equal(l[1].kind, AG_LIGHT_DIRECTIONAL);
-    kit_near(l[1].direction[1], -1, 1e-6); // from above
-    kit_near(l[1].intensity, 3, 0);
-    kit_near(l[1].color[0], 1, 0);
-    assert_int_equal(l[2].kind, AG_LIGHT_SPOT);
-    kit_near(l[2].direction[2], -1, 1e-6);
-    kit_near(l[2].cone_inner_rad, 0.2, 1e-6);
-    kit_near(l[2].cone_outer_rad, 0.4, 1e-6);
-    kit_near(l[2].intensity, 1, 0);
-    kit_near(l[2].range_m, 0, 0);
-    loads(k, "{'mesh':0,'extensions':{'KHR_lights_punctual':{'light':0}}}",
-          with_lights("{'type':'spot','spot':{}}"), 0);
-    kit_near(k->scene->lights[0].cone_inner_rad, 0, 0);
-    kit_near(k->scene->lights[0].cone_outer_rad, 0.78539816, 1e-6);
-}
-
-static void bad_lights(void **state)
-{
-    kit *k = *state;
-    const char *node = "{'extensions':{'KHR_lights_punctual':{'light':0}}}";
-    fails(k, "KHR_lights_punctual.light: 0 is not one of the 0 lights", node, with_lights(""));
-    fails(k, "lights[0].type: is missing", node, with_lights("{}"));
-    fails(k, "lights[0].type: \"area\" is not a kind", node, with_lights("{'type':'area'}"));
-    fails(k, "color: has 2 numbers instead of 3", node,
-          with_lights("{'type':'point','color':[1,1]}"));
-    // Out of range: kept within, and said so (and there is no surface).
-    loads(k, node, with_lights("{'type':'point','intensity':-5}"), 2);
-    assert_non_null(strstr(k->said, "lights[0].intensity: -5 is taken as 0"));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -282,8 +222,6 @@ int main(void)
         cmocka_unit_test(ten_thousand_nodes),
         cmocka_unit_test(cameras),
         cmocka_unit_test(bad_cameras),
-        cmocka_unit_test(lights),
-        cmocka_unit_test(bad_lights),
     };
     return cmocka_run_group_tests(tests, kit_setup, kit_teardown);
 }
