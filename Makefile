@@ -45,7 +45,7 @@ bench: ## build and run the benchmarks
 	    build/bench/bench/bench_frames demo:$$scene || exit 1; done
 	@build/bench/bench/bench_scale
 
-accuracy: ## print the sphere light's error against quadrature
+accuracy: ## print the sphere light's error against quadrature, methods side by side
 	@scripts/packages.sh build run test
 	@test -f build/bench/build.ninja || cmake --preset release -B build/bench -DARGAND_BENCH=ON
 	@cmake --build build/bench -j $(JOBS) --target accuracy

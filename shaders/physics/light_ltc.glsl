@@ -6,6 +6,9 @@
 // become elliptic cones [Heitz & Hill 2017], of which the horizon leaves what it leaves of a sphere
 // of the same form factor and direction; polygons are exact.  Isotropic.
 //
+// That horizon is the fitted cosine's, not the surface's, through which the method leaks: a light
+// that sets would not go out.  Here it fades as the last quarter of its height goes down.
+//
 // The table (bake/ltc.h) is fetched by the caller at light_ltc_uv.  In it is the inverse matrix
 // ((m0 0 m1) (0 1 0) (m2 0 m3)), m1 to m3 over alpha, from the frame whose z is the mirror
 // direction, x in the plane of incidence.  (The paper's is the surface's frame; this one makes the
@@ -65,6 +68,12 @@ static inline vec3 light_ltc_apply(light_ltc f, vec3 p)
     return vec3(dot(f.x, p), dot(f.y, p), dot(f.z, p));
 }
 
+// The fading of a light between the heights `low` and `high`.
+static inline real light_ltc_fade(real low, real high)
+{
+    return clamp(4.0f * high / max(high - low, LIGHT_TINY), 0.0f, 1.0f);
+}
+
 // The form factor of the elliptic cone with the rim c0 + s (c1 cos t + c2 sin t), over s^2;
 // `det` = that of (c1, c2, c0).  The cone is diagonalised as in docs/sphere-light.md, section 3.
 static inline real light_ltc_cone(vec3 c0, vec3 c1, vec3 c2, real s, real det)
@@ -103,6 +112,7 @@ static inline vec2 light_ltc_cap(light_cap cap, vec3 v, vec4 m, vec2 dfg)
     real cos_s = max(cap.cos_s, 1e-3f);
     real form = light_ltc_cone(cos_s * light_ltc_apply(f, cap.axis), light_ltc_apply(f, up),
                                light_ltc_apply(f, cross(cap.axis, up)), cap.sin_s, cos_s * f.det);
+    form *= light_ltc_fade(cap.axis[2] - cap.sin_s, cap.axis[2] + cap.sin_s);
     return INV_PI * form * vec2(dfg[0] + dfg[1], dfg[1]);
 }
 
@@ -117,6 +127,8 @@ static inline vec2 light_ltc_disk(vec3 centre, vec3 half_x, vec3 half_y, vec3 v,
     real form = light_ltc_cone(g * light_ltc_apply(f, centre), g * light_ltc_apply(f, half_x),
                                g * light_ltc_apply(f, half_y), 1.0f,
                                max(facing, 0.0f) * g * g * g * f.det);
+    real half_height = sqrt(half_x[2] * half_x[2] + half_y[2] * half_y[2]);
+    form *= light_ltc_fade(centre[2] - half_height, centre[2] + half_height);
     return form * vec2(dfg[0] + dfg[1], dfg[1]);
 }
 
@@ -126,6 +138,8 @@ static inline vec2 light_ltc_quad(vec3 p0, vec3 p1, vec3 p2, vec3 p3, vec3 v, ve
     light_ltc f = light_ltc_frame(v, m);
     real form = light_quad_form_factor(light_ltc_apply(f, p0), light_ltc_apply(f, p1),
                                        light_ltc_apply(f, p2), light_ltc_apply(f, p3));
+    form *= light_ltc_fade(min(min(p0[2], p1[2]), min(p2[2], p3[2])),
+                            max(max(p0[2], p1[2]), max(p2[2], p3[2])));
     return form * vec2(dfg[0] + dfg[1], dfg[1]);
 }
 

@@ -2,6 +2,7 @@
 // quadrature of the transformed cosine, the table against the fit, and both against the lobe itself
 // (cap_truth.c) within the errors that they are known for.
 #include "physics/light_ltc.glsl"
+#include "physics/light_representative.glsl"
 
 #include "../../tools/ltc_fit.h"
 #include "bake/dfg.h"
@@ -146,6 +147,12 @@ static double cap_by_quadrature(light_ltc f, light_cap cap, int n)
     return sum * TAU * height / n / n;
 }
 
+// As it sets, a light fades: by its height above the horizon over a quarter of its whole height.
+static double fade(double middle, double half_height)
+{
+    return fmax(0, fmin(1, 2 * (middle + half_height) / half_height));
+}
+
 // Does the fitted lobe's horizon cut the cone c0 + c1 cos t + c2 sin t, or nearly?  Nearly, because
 // it then cuts the sphere that stands for the cone, whose ellipse may lie flat above it.
 static bool is_cut(light_ltc f, vec3 c0, vec3 c1, vec3 c2)
@@ -171,6 +178,7 @@ static void caps_are_their_quadrature(void **state)
         double form = (double)(got[0] * cap.sin_s * cap.sin_s) * TAU / 2;
         assert_near((double)got[1], 0.3 * (double)got[0], 1e-6 * (double)got[0]);
         double expected = cap_by_quadrature(f, cap, 100);
+        expected *= fade((double)cap.axis[2], (double)cap.sin_s);
         vec3 up = light_rim_up(cap.axis), side = cross(cap.axis, up);
         if (is_cut(f, cap.cos_s * cap.axis, cap.sin_s * up, cap.sin_s * side)) {
             worst_cut = fmax(worst_cut, fabs(form - expected)); // an approximation there
@@ -230,6 +238,7 @@ static void quads_are_their_quadrature(void **state)
         vec2 got = light_ltc_quad(a.centre - a.u - a.w, a.centre + a.u - a.w, a.centre + a.u + a.w,
                                   a.centre - a.u + a.w, v, m, vec2(0.7f, 0.3f));
         double expected = area_by_quadrature(light_ltc_frame(v, m), a, false, 80);
+        expected *= fade((double)a.centre[2], fabs((double)a.u[2]) + fabs((double)a.w[2]));
         assert_near((double)got[0], expected, 3e-3 * expected + 2e-4);
         assert_near((double)got[1], 0.3 * (double)got[0], 1e-6);
     }
@@ -248,6 +257,7 @@ static void disks_are_their_quadrature(void **state)
         light_ltc f = light_ltc_frame(v, m);
         double got = (double)light_ltc_disk(a.centre, a.u, a.w, v, m, vec2(0.7f, 0.3f))[0];
         double expected = area_by_quadrature(f, a, true, 80);
+        expected *= fade((double)a.centre[2], hypot((double)a.u[2], (double)a.w[2]));
         bool cut = is_cut(f, a.centre, a.u, a.w);
         worst = fmax(worst, fabs(got - expected));
         assert_near(got, expected, cut ? 0.01 : 3e-3 * expected + 1e-4);
@@ -329,6 +339,85 @@ static void caps_are_as_good_as_published(void **state)
     assert_true(worst < 0.15 && sum < 0.06);
 }
 
+// ---- the representative point -------------------------------------------------------------------
+
+// GGX under a point light by the papers' formulas: D G2 / (4 NoV), Schlick's weight by `power`.
+static double point_light(vec3 v, vec3 l, double alpha, int power)
+{
+    double h[3], h2 = 0, a2 = alpha * alpha;
+    for (int k = 0; k < 3; k++) {
+        h[k] = (double)v[k] + (double)l[k];
+        h2 += h[k] * h[k];
+    }
+    double tan2 = (h[0] * h[0] + h[1] * h[1]) / (h[2] * h[2]), cos4 = pow(h[2] * h[2] / h2, 2);
+    double d = 1 / (TAU / 2 * a2 * cos4 * pow(1 + tan2 / a2, 2));
+    double g2 = 1;
+    for (int k = 0; k < 2; k++) {
+        double c = (double)(k ? v[2] : l[2]);
+        g2 += (sqrt(1 + a2 * (1 / (c * c) - 1)) - 1) / 2;
+    }
+    return d / g2 / (4 * (double)v[2]) * pow(1 - sqrt(h2) / 2, power);
+}
+
+static void small_lights_become_points(void **state)
+{
+    (void)state;
+    uint seed = 31;
+    for (int i = 0; i < 2000; i++) {
+        vec3 v = direction(&seed, 0.02), l = direction(&seed, 0.02);
+        float alpha = (float)(0.02 + 0.98 * next(&seed)), sine = i % 2 ? 1e-6f : 0;
+        light_cap cap = { l, sine, sqrt(1 - sine * sine) };
+        vec2 x = light_representative_cap(cap, v, alpha);
+        double all = point_light(v, l, (double)alpha, 0);
+        assert_near((double)x[0], all, 2e-3 * all);
+        assert_near((double)x[1], point_light(v, l, (double)alpha, 5), 2e-3 * all);
+        // A tube of a length that vanishes with its radius is the sphere.
+        vec2 tube = light_representative_tube(2.0f * l, 1e-6f * v, 1e-3f, v, alpha);
+        cap = light_cap_sphere(2.0f * l, 1e-3f);
+        x = light_representative_cap(cap, v, alpha);
+        double omega = TAU / 2 * (double)(cap.sin_s * cap.sin_s);
+        assert_near((double)tube[0], omega * (double)x[0], 0.01 * omega * (double)x[0]);
+    }
+}
+
+// The light around the mirror direction: its point is the mirror direction itself, the peak that of
+// a wider lobe.  The angle from the mirror ray within a light makes no difference.
+static void nearest_point_is_on_the_ray(void **state)
+{
+    (void)state;
+    vec3 v = vec3(0.6f, 0, 0.8f);
+    vec2 at =
+        light_representative_cap((light_cap) { vec3(-0.6f, 0, 0.8f), 0.2f, sqrt(0.96f) }, v, 0.1f);
+    double peak = point_light(v, vec3(-0.6f, 0, 0.8f), 0.1, 0) * 0.25; // (0.1 / 0.2)^2
+    assert_near((double)at[0], peak, 1e-3 * peak);
+    vec3 near_it = normalize(vec3(-0.6f, 0.19f, 0.8f));
+    vec2 beside = light_representative_cap((light_cap) { near_it, 0.2f, sqrt(0.96f) }, v, 0.1f);
+    assert_near((double)beside[0], peak, 1e-3 * peak);
+    // Behind the eye's mirror ray there is nothing to be drawn to: the centre stands for the light.
+    vec3 behind = normalize(vec3(0.95f, 0, 0.1f));
+    vec2 away = light_representative_cap((light_cap) { behind, 0.2f, sqrt(0.96f) }, v, 0.9f);
+    double centre = point_light(v, behind, 0.9, 0) * pow(0.9 / 1, 2);
+    assert_near((double)away[0], centre, 1e-3 * centre);
+}
+
+// No step as a light sets, nor as it passes the mirror ray.
+static void it_moves_smoothly(void **state)
+{
+    (void)state;
+    vec3 v = vec3(0.8f, 0, 0.6f);
+    double last = 0, most = 0;
+    for (int i = 0; i <= 20000; i++) {
+        double angle = -0.5 + 4 * i / 20000.0;
+        vec3 l = vec3((float)-cos(angle), 0.05f, (float)sin(angle));
+        double x = (double)light_representative_cap((light_cap) { normalize(l), 0.3f, 0.954f }, v,
+                                                    0.2f)[0];
+        if (i)
+            most = fmax(most, fabs(x - last));
+        last = x;
+    }
+    assert_true(most < 2e-3); // of a peak near .3, in steps of .0002
+}
+
 // ---- all of it is total -------------------------------------------------------------------------
 
 static double odd(uint *seed, double x)
@@ -361,6 +450,11 @@ static void nothing_breaks_it(void **state)
         form = (double)light_ltc_quad(centre - u - w, centre + u - w, centre + u + w,
                                       centre - u + w, v, m, white)[0];
         assert_true(form >= 0 && form <= 1.0001);
+        float alpha = (float)fmax(0.002, next(&seed));
+        vec2 x = light_representative_cap(cap, v, alpha);
+        assert_true(x[0] >= 0 && x[1] >= 0 && x[1] <= x[0] && isfinite(x[0]));
+        x = light_representative_tube(centre, u, radius, v, alpha);
+        assert_true(x[0] >= 0 && x[1] >= 0 && x[1] <= x[0] && isfinite(x[0]));
         form = (double)light_ltc_tube(centre, u, radius, v, m, white)[0];
         assert_true(form >= 0 && form <= 1.0001);
     }
@@ -380,6 +474,9 @@ int main(void)
         cmocka_unit_test(tubes_shrink_to_spheres),
         cmocka_unit_test(a_sky_gives_the_albedo),
         cmocka_unit_test(caps_are_as_good_as_published),
+        cmocka_unit_test(small_lights_become_points),
+        cmocka_unit_test(nearest_point_is_on_the_ray),
+        cmocka_unit_test(it_moves_smoothly),
         cmocka_unit_test(nothing_breaks_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

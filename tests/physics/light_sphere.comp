@@ -4,6 +4,7 @@
 
 #include "physics/light_ltc.glsl"
 #include "physics/light_polygon.glsl"
+#include "physics/light_representative.glsl"
 #include "physics/surface_light.glsl"
 
 layout(local_size_x = 64) in;
@@ -20,6 +21,8 @@ void main()
     vec3 seen = surface_cap(s, vec3(0, 0, 1), normalize(u[2 * i + 1].xyz), sun);
     y[i] = vec4(x, light_cap_cosine(cap), light_cap_cosine(sun)) + vec4(seen, 0);
     vec4 m = light_ltc_matrix(u[i], .3);
+    y[i].xy += light_representative_cap(cap, u[i].xyz, x[0]) +
+               light_representative_tube(u[i].xyz, u[i].yzx, x[0], u[i].xyz, x[1]);
     y[i].xy += light_ltc_cap(sun, u[i].xyz, m, x) + light_ltc_uv(x[0], x[1]) +
                light_ltc_disk(u[i].xyz, u[i].yzx, u[i].zxy, u[i].xyz, m, x) +
                light_ltc_tube(u[i].xyz, u[i].yzx, x[0], u[i].xyz, m, x);
