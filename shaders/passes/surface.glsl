@@ -92,6 +92,7 @@ surface_material material_here(vec3 base_color)
     m.specular_color = material.specular_color *
                        SAMPLE(specular_color_texture, GPU_TEXTURE_SPECULAR_COLOR, white).rgb;
     m.specular = material.specular * SAMPLE(specular_texture, GPU_TEXTURE_SPECULAR, white).a;
+    m.model = 0u;
     return m;
 }
 
@@ -127,8 +128,9 @@ vec3 radiance_to_eye(vec3 base_color)
     vec3 n = shading_normal();
     vec3 wo = frame.orthographic != 0.0 ? -frame.ray_center : normalize(frame.eye - in_position);
     surface_material m = material_here(base_color);
-    vec2 dfg = texture(dfg_table, vec2(surface_cosine(n, wo), m.roughness)).rg;
-    surface s = surface_from_metallic_roughness(m, dfg);
+    float NoV = surface_cosine(n, wo);
+    vec2 dfg = texture(dfg_table, vec2(NoV, m.roughness)).rg;
+    surface s = surface_from_metallic_roughness(m, NoV, dfg);
     // Only lights without extent sparkle.  Image light is filtered already, and wider lobes
     // would bring light to silhouettes that is not there: 2.5 times the error on spheres.
     s.a2 = specular_aa_alpha2(s.a2, frame.footprint * dFdx(n), frame.footprint * dFdy(n));

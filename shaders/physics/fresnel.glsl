@@ -65,10 +65,39 @@ static inline real fresnel_conductor(real c, real n, real k)
     real t = n * n - k * k - s2;
     real ab = sqrt(t * t + 4.0f * n * n * k * k); // a^2 + b^2
     real a = sqrt(max(0.5f * (ab + t), 0.0f));
-    real rs = (ab + c2 - 2.0f * a * c) / (ab + c2 + 2.0f * a * c);
+    real rs = (ab + c2 - 2.0f * a * c) / max(ab + c2 + 2.0f * a * c, 1e-12f);
     real p = c2 * ab + s2 * s2;
     real q = 2.0f * a * c * s2;
-    return 0.5f * rs * (1.0f + (p - q) / (p + q));
+    return 0.5f * rs * (1.0f + (p - q) / max(p + q, 1e-12f));
+}
+
+static inline vec3 fresnel_conductor_rgb(real c, vec3 n, vec3 k)
+{
+    return vec3(fresnel_conductor(c, n[0], k[0]), fresnel_conductor(c, n[1], k[1]),
+                fresnel_conductor(c, n[2], k[2]));
+}
+
+// 2 int F(c) c dc by the two Gauss nodes of that weight.
+static inline vec3 fresnel_conductor_mean(vec3 n, vec3 k)
+{
+    return 0.36391726f * fresnel_conductor_rgb(0.35505103f, n, k) +
+           0.63608274f * fresnel_conductor_rgb(0.84494897f, n, k);
+}
+
+// What metals lack of Schlick's value towards grazing angles: times this, subtracted.
+// Lazanyi & Szirmay-Kalos 2005, eq. 4.  Its cosine-weighted mean, 2 int c^2 (1 - c)^6 dc, is
+// 1 / 126.
+static inline real fresnel_dip(real c)
+{
+    real x = 1.0f - c;
+    return pow5(x) * x * c;
+}
+
+// The factor of fresnel_dip for a reflectance of `tint` times Schlick's at c = 1/7, 82
+// degrees, where the dip is deepest.  Kutz, Hasan & Edmondson 2021, "F82-tint".
+static inline vec3 fresnel_f82(vec3 f0, vec3 tint)
+{
+    return (1.0f - tint) * fresnel_schlick(f0, 1.0f, 1.0f / 7.0f) / fresnel_dip(1.0f / 7.0f);
 }
 
 #endif

@@ -43,7 +43,8 @@ static inline surface case_surface(vec4 u)
     m.dielectric_f0 = 0.02f + 0.1f * u[1];
     m.specular_color = vec3(u[3], u[2], u[1]);
     m.specular = u[2];
-    return surface_from_metallic_roughness(m, vec2(0.3f + 0.5f * u[1], 0.2f * u[3]));
+    m.model = 0u;
+    return surface_from_metallic_roughness(m, 0.5f, vec2(0.3f + 0.5f * u[1], 0.2f * u[3]));
 }
 
 static inline ambient_light case_ambient(vec4 u)

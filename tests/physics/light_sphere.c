@@ -218,7 +218,9 @@ static void a_surface_sees_a_small_light_as_a_point(void **state)
 {
     (void)state;
     uint seed = 41;
-    surface s = { vec3(0.3f, 0.2f, 0.1f), vec3(0, 0, 0), vec3(0.9f, 0.5f, 0.04f), 1, 0.09f };
+    const surface s = {
+        .lambert = vec3(0.3f, 0.2f, 0.1f), .f0 = vec3(0.9f, 0.5f, 0.04f), .f90 = 1, .a2 = 0.09f
+    };
     for (int i = 0; i < 2000; i++) {
         double a[3], b[3], c[3];
         direction(&seed, a);

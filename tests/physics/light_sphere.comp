@@ -17,7 +17,12 @@ void main()
     light_cap cap = light_cap_sphere(u[2 * i].xyz, u[2 * i].w);
     light_cap sun = light_cap_sun(cap.axis, cap.sin_s);
     vec2 x = light_cap_ggx(cap, normalize(u[2 * i + 1].xyz), u[2 * i + 1].w, u[2 * i + 1].w);
-    surface s = surface(vec3(.1), vec3(0), vec3(.04), 1, .1);
+    surface s;
+    s.model = 0u;
+    s.lambert = vec3(.1);
+    s.f0 = vec3(.04);
+    s.f90 = 1;
+    s.a2 = .1;
     vec3 seen = surface_cap(s, vec3(0, 0, 1), normalize(u[2 * i + 1].xyz), sun);
     y[i] = vec4(x, light_cap_cosine(cap), light_cap_cosine(sun)) + vec4(seen, 0);
     vec4 m = light_ltc_matrix(u[i], .3);

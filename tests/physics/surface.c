@@ -109,7 +109,7 @@ static surface make(float metallic, float roughness, float base, albedo e)
         .specular_color = vec3(1.0f, 1.0f, 1.0f),
         .specular = 1.0f,
     };
-    return surface_from_metallic_roughness(m, vec2((float)e.scale, (float)e.bias));
+    return surface_from_metallic_roughness(m, 1.0f, vec2((float)e.scale, (float)e.bias));
 }
 
 // The visibility term against Heitz' own form of it, G2 / (4 NoL NoV).
@@ -216,7 +216,7 @@ static void no_surface_makes_light(void **state)
             .specular_color = vec3(1.0f, u[0], 0.0f),
             .specular = sampling_van_der_corput(i * 3u),
         };
-        surface s = surface_from_metallic_roughness(m, vec2((float)e.scale, (float)e.bias));
+        surface s = surface_from_metallic_roughness(m, NoV, vec2((float)e.scale, (float)e.bias));
         vec3 one = vec3(1.0f, 1.0f, 1.0f), all = surface_environment(s, one, one);
         for (int k = 0; k < 3; k++)
             assert_true(all[k] >= 0.0f && all[k] <= 1.0001f);
@@ -234,7 +234,7 @@ static void bounces_sum_to_their_series(void **state)
         left *= 1.0 - e;
     }
     surface_material m = { .base_color = vec3(0.6f, 0.6f, 0.6f), .metallic = 1.0f, .roughness = 1 };
-    surface s = surface_from_metallic_roughness(m, vec2(0.55f, 0.0f));
+    surface s = surface_from_metallic_roughness(m, 1.0f, vec2(0.55f, 0.0f));
     // Schlick's rise to f90 = 1 lifts the mean by (1 - f) / 21: allow for that alone.
     double mean = f + (1.0 - f) / 21.0;
     double expected = f * e / (1.0 - mean * (1.0 - e));
