@@ -35,7 +35,7 @@ static void a_matte_surface_returns_its_albedo(void **state)
     enum { COUNT = 4096 };
     for (int i = 0; i < COUNT; i++) // albedo / pi, the cosine and the sky's 1 over the hemisphere
         truth += albedo / (TURN / 2.0) * (i + 0.5) / COUNT * TURN / COUNT;
-    surface s = surface_from_metallic_roughness(matte(0.6f), vec2(0.0f, 0.0f));
+    surface s = surface_from_metallic_roughness(matte(0.6f), 1.0f, vec2(0.0f, 0.0f));
     assert_near((double)surface_environment(s, WHITE, WHITE)[0], truth, 1e-5);
     double sky = 1.0, printed = albedo / (TURN / 2.0) * sky;
     assert_misses(printed, truth, 0.4);
@@ -98,7 +98,7 @@ static void the_display_is_srgb(void **state)
 static void ambient_light_is_added(void **state)
 {
     (void)state;
-    surface s = surface_from_metallic_roughness(matte(0.5f), vec2(0.0f, 0.0f));
+    surface s = surface_from_metallic_roughness(matte(0.5f), 1.0f, vec2(0.0f, 0.0f));
     vec3 n = vec3(0.0f, 0.0f, 1.0f), below = -n;
     double Lo = (double)surface_direct(s, n, n, below)[0];
     double ambient = (double)surface_environment(s, 0.03f * WHITE, 0.0f * WHITE)[0];

@@ -68,7 +68,7 @@ static void the_cosine_counts_once(void **state)
 {
     (void)state;
     surface_material m = { .base_color = vec3(1.0, 1.0, 1.0), .roughness = 1.0 };
-    surface s = surface_from_metallic_roughness(m, vec2(0.0, 0.0));
+    surface s = surface_from_metallic_roughness(m, 1.0, vec2(0.0, 0.0));
     double once = 0.0, twice = 0.0;
     enum { STEPS = 2000 };
     for (int i = 0; i < STEPS; i++) { // rings of the plane z = -1, seen at equal steps of angle
@@ -369,7 +369,7 @@ static void every_light_has_its_own_colour(void **state)
 {
     (void)state;
     surface_material m = { .base_color = WHITE, .roughness = 0.5 };
-    surface s = surface_from_metallic_roughness(m, vec2(0.0, 0.0));
+    surface s = surface_from_metallic_roughness(m, 1.0, vec2(0.0, 0.0));
     const double lights[4][2] = { { 10.0, 1.0 }, { -20.0, 0.0 }, { 40.0, 0.0 }, { -60.0, 0.0 } };
     vec3 n = vec3(0.0, 0.0, 1.0);
     double project = 0.0, printed = 0.0;

@@ -76,7 +76,7 @@ static void a_metal_has_no_diffuse_base(void **state)
     (void)state;
     surface_material gold = dielectric(0.9, 0.3, 0.04);
     gold.metallic = 1.0;
-    surface s = surface_from_metallic_roughness(gold, vec2(1.0, 0.0)); // a lobe that loses nothing
+    surface s = surface_from_metallic_roughness(gold, 1.0, vec2(1.0, 0.0)); // loses nothing
     assert_near(s.lambert[0], 0.0, 1e-9);
     double diffuse = 0.9 / TURN * 2.0, specular = 0.0, reflectiveness = 0.0; // off the highlight
     double printed = reflectiveness * specular + (1.0 - reflectiveness) * diffuse;
@@ -202,7 +202,7 @@ static double printed_d(double roughness, double NoH)
 static void a_mirror_is_finite(void **state)
 {
     (void)state;
-    surface s = surface_from_metallic_roughness(dielectric(0.5, 0.0, 0.04), vec2(0.04, 0.0));
+    surface s = surface_from_metallic_roughness(dielectric(0.5, 0.0, 0.04), 1.0, vec2(0.04, 0.0));
     vec3 up = vec3(0.0, 0.0, 1.0);
     assert_true(isfinite(surface_direct(s, up, up, up)[0]));
     assert_true(isnan(printed_d(0.0, 1.0)));
@@ -212,7 +212,7 @@ static void a_mirror_is_finite(void **state)
 static void opposite_directions_are_finite(void **state)
 {
     (void)state;
-    surface s = surface_from_metallic_roughness(dielectric(0.5, 0.5, 0.04), vec2(0.04, 0.0));
+    surface s = surface_from_metallic_roughness(dielectric(0.5, 0.5, 0.04), 1.0, vec2(0.04, 0.0));
     vec3 n = vec3(0.0, 0.0, 1.0), wo = vec3(1.0, 0.0, 0.0), wi = -wo;
     assert_near(surface_direct(s, n, wo, wi)[0], 0.0, 0.0);
     assert_true(isnan(normalize(wo + wi)[0]));
@@ -250,8 +250,8 @@ static void the_base_gets_what_is_left(void **state)
     (void)state;
     double roughness = 0.3, NoV = 0.3;
     albedo e = albedo_of(NoV, roughness * roughness, 200);
-    surface s =
-        surface_from_metallic_roughness(dielectric(1.0, roughness, 0.04), vec2(e.scale, e.bias));
+    surface s = surface_from_metallic_roughness(dielectric(1.0, roughness, 0.04), NoV,
+                                                vec2(e.scale, e.bias));
     assert_near(reflected(project_direct, NoV, &s), 1.0, 2e-3);
     assert_true(reflected(printed_direct, NoV, &roughness) > 1.02);
 }
@@ -322,7 +322,7 @@ static void no_highlight_without_light(void **state)
     (void)state;
     surface_material white = dielectric(1.0, 0.6, 0.04);
     white.metallic = 1.0;
-    surface s = surface_from_metallic_roughness(white, vec2(1.0, 0.0));
+    surface s = surface_from_metallic_roughness(white, 1.0, vec2(1.0, 0.0));
     for (int i = 0; i < 2; i++) {
         double NoL = i ? -0.17 : 0.02, received = fmax(NoL, 0.0);
         lit light = { towards(NoL), &s };
