@@ -3,4 +3,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CUTOUT
-#include "passes/surface.glsl"
+#include "passes/fragment.glsl"

@@ -1,4 +1,4 @@
-// The light that lights send to the eye by way of a surface at `in_position`.
+// The light that lights send to the eye by way of a surface at the place `here`.
 #include "physics/ambient.glsl"
 #include "physics/light_punctual.glsl"
 #include "physics/surface_light.glsl"
@@ -15,7 +15,7 @@ vec3 lit_by_punctual(gpu_light light, surface s, vec3 n, vec3 wo)
     vec3 wi = -light.direction;
     float falloff = 1.0;
     if (light.kind != GPU_LIGHT_DIRECTIONAL) {
-        vec3 to_light = light.position - in_position;
+        vec3 to_light = light.position - here.position;
         float distance2 = dot(to_light, to_light);
         falloff = light_point(distance2, light.inverse_range2);
         wi = to_light * inversesqrt(max(distance2, 1e-20));
@@ -32,7 +32,7 @@ vec3 lit_by_cap(gpu_light light, surface s, vec3 n, vec3 wo)
         light_cap sun = light_cap(-light.direction, light.radius, light.cone_scale);
         return light.intensity * surface_cap(s, n, wo, sun);
     }
-    vec3 to_light = light.position - in_position;
+    vec3 to_light = light.position - here.position;
     float distance2 = dot(to_light, to_light);
     float falloff = light_window(distance2, light.inverse_range2) /
                     max(distance2, max(light.radius * light.radius, LIGHT_MIN_DISTANCE2));
@@ -51,8 +51,8 @@ vec3 lit_by_group(int group, gpu_light light, surface s, vec3 n, vec3 wo)
 // Where the lights of this place are listed: a record of `clusters`.
 uint cluster_here()
 {
-    uvec2 tile = uvec2(gl_FragCoord.xy) / uvec2(frame.cluster_tile_x, frame.cluster_tile_y);
-    float depth = dot(frame.depth.xyz, in_position) + frame.depth.w;
+    uvec2 tile = uvec2(here.pixel) / uvec2(frame.cluster_tile_x, frame.cluster_tile_y);
+    float depth = dot(frame.depth.xyz, here.position) + frame.depth.w;
     float slice = log2(max(depth, 1e-30)) * frame.slice_scale + frame.slice_offset;
     uint z = uint(clamp(slice, 0.0, float(GPU_CLUSTERS - 1)));
     return ((z * GPU_CLUSTERS + tile.y) * GPU_CLUSTERS + tile.x) * GPU_CLUSTER_WORDS;

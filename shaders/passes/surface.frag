@@ -1,4 +1,4 @@
 // Surfaces, opaque or blended.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/surface.glsl"
+#include "passes/fragment.glsl"

@@ -1,5 +1,4 @@
-// Surfaces: what the material says, and the light that it sends to the eye.  CUTOUT: with
-// holes where alpha is below the cutoff.
+// Surfaces: what the material says of the place `here`, and the light that it sends to the eye.
 #include "physics/environment.glsl"
 #include "physics/sh.glsl"
 #include "physics/specular_aa.glsl"
@@ -14,7 +13,6 @@ layout(constant_id = 2) const uint ALPHA_MODE = 0u;
 layout(constant_id = 3) const uint UNLIT = 0u;
 layout(constant_id = 4) const uint ENVIRONMENT = 1u;
 layout(constant_id = 6) const uint TONE = 0u;
-layout(constant_id = 7) const uint SAMPLES = 4u;
 
 layout(scalar, set = 1, binding = 0) uniform Material { gpu_material material; };
 layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
@@ -25,21 +23,25 @@ layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
 layout(set = 1, binding = 6) uniform sampler2D specular_texture;
 layout(set = 1, binding = 7) uniform sampler2D specular_color_texture;
 
-layout(location = 0) in vec3 in_position;
-layout(location = 1) in vec3 in_normal;
-layout(location = 2) in vec4 in_tangent;
-layout(location = 3) in vec4 in_uvs;
-layout(location = 4) in vec4 in_color;
+// A place that is shaded, as a pixel sees it.
+struct place {
+    vec3 position; // world space
+    vec3 normal;   // not normalised
+    vec4 tangent;  // not normalised; w = handedness
+    vec4 uvs;
+    vec4 color;
+    bool front; // its front is seen
+    vec2 pixel; // from the upper left corner of what is drawn
+};
+place here; // given by who includes this
 
 #include "passes/lights.glsl"
-
-layout(location = 0) out vec4 out_color; // premultiplied
 
 vec2 uv_of(uint t)
 {
     if (GENERAL_UV == 0u)
-        return in_uvs.xy;
-    vec3 uv = vec3((material.uv1 >> t & 1u) != 0u ? in_uvs.zw : in_uvs.xy, 1.0);
+        return here.uvs.xy;
+    vec3 uv = vec3((material.uv1 >> t & 1u) != 0u ? here.uvs.zw : here.uvs.xy, 1.0);
     return vec2(dot(material.uv_u[t], uv), dot(material.uv_v[t], uv));
 }
 
@@ -67,16 +69,16 @@ vec2 turned(vec2 m)
 
 vec3 shading_normal()
 {
-    vec3 n = in_normal;
+    vec3 n = here.normal;
     if (has(GPU_TEXTURE_NORMAL)) {
         vec2 xy = texture(normal_texture, uv_of(GPU_TEXTURE_NORMAL)).xy * 2.0 - 1.0;
         vec3 m = vec3(turned(xy) * material.normal_scale, sqrt(max(1.0 - dot(xy, xy), 0.0)));
         // As MikkTSpace bakes: the interpolated vectors are not normalised first.
-        vec3 bitangent = in_tangent.w * cross(n, in_tangent.xyz);
-        n = m.x * in_tangent.xyz + m.y * bitangent + m.z * n;
+        vec3 bitangent = here.tangent.w * cross(n, here.tangent.xyz);
+        n = m.x * here.tangent.xyz + m.y * bitangent + m.z * n;
     }
     n = normalize(n);
-    return gl_FrontFacing ? n : -n;
+    return here.front ? n : -n;
 }
 
 surface_material material_here(vec3 base_color)
@@ -111,7 +113,7 @@ vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness, float ao)
         open = environment_specular_occlusion(NoV, ao, roughness * roughness);
     if (has(GPU_TEXTURE_NORMAL))
         open *= environment_horizon_occlusion(
-            r, gl_FrontFacing ? normalize(in_normal) : -normalize(in_normal));
+            r, here.front ? normalize(here.normal) : -normalize(here.normal));
     vec3 lobe = environment_dominant(n, r, roughness * roughness);
     vec3 prefiltered = textureLod(environment_cube, environment_from_world(lobe),
                                   environment_mip(roughness, frame.environment_mips))
@@ -126,7 +128,7 @@ vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness, float ao)
 vec3 radiance_to_eye(vec3 base_color)
 {
     vec3 n = shading_normal();
-    vec3 wo = frame.orthographic != 0.0 ? -frame.ray_center : normalize(frame.eye - in_position);
+    vec3 wo = frame.orthographic != 0.0 ? -frame.ray_center : normalize(frame.eye - here.position);
     surface_material m = material_here(base_color);
     float NoV = surface_cosine(n, wo);
     vec2 dfg = texture(dfg_table, vec2(NoV, m.roughness)).rg;
@@ -146,30 +148,19 @@ vec3 radiance_to_eye(vec3 base_color)
     return light;
 }
 
-#ifdef CUTOUT
-// The step at the cutoff is made one pixel wide and covers as many of the pixel's samples,
-// so that multisampling smooths it.
-void cover(float alpha)
+vec4 base_here()
 {
-    float share = clamp((alpha - material.alpha_cutoff) / max(fwidth(alpha), 1e-4) + 0.5, 0.0, 1.0);
-    uint covered = uint(share * float(SAMPLES) + 0.5);
-    if (covered == 0u)
-        discard;
-    gl_SampleMask[0] = int((1u << covered) - 1u);
+    return material.base_color * here.color *
+           SAMPLE(base_color_texture, GPU_TEXTURE_BASE_COLOR, vec4(1.0));
 }
-#endif
 
-void main()
+// What is drawn, premultiplied.
+vec4 color_here(vec4 base)
 {
-    vec4 base = material.base_color * in_color *
-                SAMPLE(base_color_texture, GPU_TEXTURE_BASE_COLOR, vec4(1.0));
-#ifdef CUTOUT
-    cover(base.a);
-#endif
     vec3 color = UNLIT != 0u ? base.rgb : radiance_to_eye(base.rgb);
     color *= frame.exposure;
     if (TONE != GPU_TONE_LINEAR)
         color = tonemap(TONE, color);
     float alpha = ALPHA_MODE == GPU_ALPHA_BLEND ? base.a : 1.0;
-    out_color = vec4(min(color, 60000.0) * alpha, alpha);
+    return vec4(min(color, 60000.0) * alpha, alpha);
 }
