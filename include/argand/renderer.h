@@ -89,11 +89,21 @@ typedef enum ag_quality {
     AG_QUALITY_BEST,        // 32 jittered frames accumulated
 } ag_quality;
 
+// How the highlights of lights of extent are found.
+typedef enum ag_area_lights {
+    AG_AREA_LIGHTS_EXACT = 0, // the closed form of docs/sphere-light.md
+    // What it is compared with: linearly transformed cosines (Heitz et al. 2016); the
+    // representative point (Karis 2013), which rectangles and disks do not have.
+    AG_AREA_LIGHTS_LTC,
+    AG_AREA_LIGHTS_REPRESENTATIVE_POINT,
+} ag_area_lights;
+
 typedef struct ag_render_options {
     uint32_t width, height; // px; 0 -> 1024.  Above the device's limit: tiles
     ag_format format;       // RGBA8: tone-mapped, sRGB-coded; RGBA32F: linear, exposed
     ag_quality quality;
     ag_tonemap tonemap;
+    ag_area_lights area_lights;
     ag_background background;
     float background_color[3]; // sRGB-coded, shown as it is, not exposed
     float exposure;            // linear factor; 0 -> ag_scene_exposure()

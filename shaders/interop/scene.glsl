@@ -131,14 +131,6 @@ STRUCT_BEGIN(gpu_material)
     float normal_scale;
     float occlusion_strength;
     float alpha_cutoff;
-    float anisotropy;
-    float2 anisotropy_direction; // cosine and sine of its rotation from the tangent
-    float diffuse_roughness;
-    float shininess;
-    float reflectiveness;
-    float3 conductor_n;
-    float3 conductor_k;
-    float3 f82_tint;
     uint uv1; // bit t: texture t uses uv set 1
     float3 uv_u[GPU_TEXTURE_COUNT]; // u' = dot(uv_u, (u, v, 1))
     float3 uv_v[GPU_TEXTURE_COUNT];
@@ -157,7 +149,7 @@ STRUCT_BEGIN(gpu_surface_constants)
     uint groups;      // bit g: there are lights of group g, beyond the near ones
     uint clustered;
     uint ambient;
-    uint model; // SURFACE_ of surface.glsl
+    uint method;      // GPU_METHOD_, of lights of extent
 STRUCT_END(gpu_surface_constants)
 
 #define GPU_ALPHA_OPAQUE 0u
@@ -166,6 +158,9 @@ STRUCT_END(gpu_surface_constants)
 #define GPU_ENVIRONMENT_NONE      0u
 #define GPU_ENVIRONMENT_CUBE      1u // diffuse light from the irradiance cube
 #define GPU_ENVIRONMENT_HARMONICS 2u // diffuse light from order-2 spherical harmonics
+#define GPU_METHOD_EXACT          0u
+#define GPU_METHOD_LTC            1u
+#define GPU_METHOD_REPRESENTATIVE 2u
 #define GPU_TONE_LINEAR  0xffu // leave the radiance as it is: something comes after
 
 // Constants of the passes that follow, pushed.
@@ -178,7 +173,7 @@ STRUCT_END(gpu_resolve)
 _Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 2 * 9 * 12 + 20 + 8 + 16 + 8, "gpu_frame");
 _Static_assert(sizeof(gpu_light) == 5 * 16 + 12, "gpu_light");
 _Static_assert(sizeof(gpu_instance) == 48, "gpu_instance");
-_Static_assert(sizeof(gpu_material) == 16 + 16 + 16 + 20 + 60 + 4 + 2 * GPU_TEXTURE_COUNT * 12,
+_Static_assert(sizeof(gpu_material) == 16 + 16 + 16 + 24 + 2 * GPU_TEXTURE_COUNT * 12,
                "gpu_material");
 _Static_assert(sizeof(gpu_surface_constants) == 48, "gpu_surface_constants");
 _Static_assert(sizeof(gpu_resolve) == 20, "gpu_resolve");

@@ -13,6 +13,7 @@ layout(scalar, set = 0, binding = 4) uniform Near { gpu_light near_lights[GPU_LI
 layout(set = 0, binding = 5) uniform samplerCube irradiance_cube; // over pi
 layout(scalar, set = 0, binding = 6) readonly buffer Lights { gpu_light lights[]; };
 layout(scalar, set = 0, binding = 7) readonly buffer Clusters { uint clusters[]; };
+layout(set = 0, binding = 8) uniform sampler2D ltc_table;
 
 // A direction of the world in the environment's own frame.
 vec3 environment_from_world(vec3 d)

@@ -20,6 +20,7 @@ static ag_status create_layouts(gpu_device *device, bindings *b)
         { 5, IMAGE, 1, fragment, NULL },
         { 6, STORAGE, 1, vertex | fragment, NULL },
         { 7, STORAGE, 1, fragment, NULL },
+        { 8, IMAGE, 1, fragment, NULL },
     };
     VkDescriptorSetLayoutBinding material[1 + GPU_TEXTURE_COUNT] = { { 0, UNIFORM, 1, fragment,
                                                                        NULL } };
@@ -27,7 +28,7 @@ static ag_status create_layouts(gpu_device *device, bindings *b)
         material[i] = (VkDescriptorSetLayoutBinding) { i, IMAGE, 1, fragment, NULL };
     const VkDescriptorSetLayoutBinding picture[] = { { 0, IMAGE, 1, fragment, NULL } };
 
-    ag_status status = gpu_set_layout_create(device, frame, 8, &b->frame_set);
+    ag_status status = gpu_set_layout_create(device, frame, 9, &b->frame_set);
     if (!status)
         status = gpu_set_layout_create(device, material, 1 + GPU_TEXTURE_COUNT, &b->material_set);
     if (!status)
@@ -64,7 +65,7 @@ static ag_status create_samplers(gpu_device *device, bindings *b)
 
 static ag_status create_sets(gpu_device *device, bindings *b)
 {
-    const VkDescriptorPoolSize sizes[] = { { UNIFORM, 2 }, { IMAGE, 6 }, { STORAGE, 2 } };
+    const VkDescriptorPoolSize sizes[] = { { UNIFORM, 2 }, { IMAGE, 7 }, { STORAGE, 2 } };
     const VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
         .maxSets = 3,

@@ -37,6 +37,8 @@ static ag_status surface_pipeline(ag_renderer *r, const picture *p, uint32_t mat
     if (!key.constants.unlit) {
         key.constants.environment = environment_kind(r, p);
         lights_constants(&r->resident.lights, &key.constants);
+        if (key.constants.groups & ~(1u << GPU_LIGHTS_PUNCTUAL))
+            key.constants.method = (uint32_t)p->options->area_lights;
     }
     key.constants.tone = surface_tone(p);
     key.constants.samples = r->targets.desc.samples;

@@ -63,12 +63,12 @@ static float spread_of(const ag_light_desc *d)
     }
 }
 
-// The half axes of what has two.
+// The half axes of what has two; x cross y is the way the light travels.
 static void set_axes(const ag_light_desc *d, gpu_light *light)
 {
     const float *to = d->direction, *up = d->up;
-    const float right[3] = { to[1] * up[2] - to[2] * up[1], to[2] * up[0] - to[0] * up[2],
-                             to[0] * up[1] - to[1] * up[0] };
+    const float right[3] = { up[1] * to[2] - up[2] * to[1], up[2] * to[0] - up[0] * to[2],
+                             up[0] * to[1] - up[1] * to[0] };
     float half_x = d->radius_m, half_y = d->radius_m;
     if (d->kind == AG_LIGHT_RECT) {
         half_x = 0.5f * d->width_m;

@@ -75,7 +75,8 @@ static ag_status check_options(const ag_scene *scene, ag_render_options *o)
         return log_fail(log, AG_ERROR_ARGUMENT, "an exposure of %g is not above 0",
                         (double)o->exposure);
     if ((unsigned)o->tonemap > AG_TONEMAP_AGX || (unsigned)o->background > AG_BACKGROUND_COLOR ||
-        (unsigned)o->quality > AG_QUALITY_BEST || (unsigned)o->format > AG_FORMAT_RGBA32F)
+        (unsigned)o->quality > AG_QUALITY_BEST || (unsigned)o->format > AG_FORMAT_RGBA32F ||
+        (unsigned)o->area_lights > AG_AREA_LIGHTS_REPRESENTATIVE_POINT)
         return log_fail(log, AG_ERROR_ARGUMENT,
                         "a render option has a value that its enumeration lacks");
     return AG_OK;
@@ -144,6 +145,7 @@ static void write_frame_set(ag_renderer *r)
                           VK_WHOLE_SIZE);
     bindings_write_buffer(r->device, set, 7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, l->clusters.buffer,
                           0, VK_WHOLE_SIZE);
+    bindings_write_image(r->device, set, 8, s->ltc.view, r->bindings.linear);
     if (r->targets.radiance.view)
         bindings_write_image(r->device, r->bindings.picture, 0, r->targets.radiance.view,
                              r->bindings.linear);

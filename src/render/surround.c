@@ -3,6 +3,7 @@
 
 #include "bake/dfg.h"
 #include "bake/environment.h"
+#include "bake/ltc.h"
 #include "base/clock.h"
 #include "base/log.h"
 #include "image/half.h"
@@ -96,6 +97,14 @@ static ag_status upload_dfg(gpu_device *device, gpu_upload *upload, gpu_image *d
     return upload_levels(device, upload, &desc, 4, table, dfg);
 }
 
+static ag_status upload_ltc(gpu_device *device, gpu_upload *upload, gpu_image *ltc)
+{
+    const gpu_image_desc desc = { .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                  .width = BAKE_LTC_SIZE,
+                                  .height = BAKE_LTC_SIZE };
+    return upload_levels(device, upload, &desc, 8, bake_ltc_table, ltc);
+}
+
 ag_status surround_create(gpu_device *device, const ag_image *equirect, bool image_wanted,
                           gpu_upload *upload, bool *cached, double *bake_ms, surround *s)
 {
@@ -108,6 +117,8 @@ ag_status surround_create(gpu_device *device, const ag_image *equirect, bool ima
         status = bake_environment_make(&device->log, equirect, &baked, cached);
     if (!status)
         status = upload_dfg(device, upload, &s->dfg);
+    if (!status)
+        status = upload_ltc(device, upload, &s->ltc);
     *bake_ms = clock_ms() - start;
 
     memcpy(s->sh, baked.sh, sizeof s->sh);
@@ -130,6 +141,7 @@ void surround_destroy(gpu_device *device, surround *s)
     gpu_image_destroy(device, &s->irradiance);
     gpu_image_destroy(device, &s->image);
     gpu_image_destroy(device, &s->dfg);
+    gpu_image_destroy(device, &s->ltc);
     *s = (surround) { 0 };
 }
 

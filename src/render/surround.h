@@ -14,6 +14,7 @@ typedef struct surround {
     gpu_image image;      // equirectangular; a stand-in until it is needed
     bool image_wanted;    // the image is the real one
     gpu_image dfg;
+    gpu_image ltc;
     float sh[9][3];
 } surround;
 
