@@ -293,6 +293,54 @@ static void lambert_leaves_by_the_cosine(void **state)
     assert_misses(uniform, moment / flux, 0.1);
 }
 
+// As a shader has it, in float; times the cosine of l, for rho = 1.
+static double printed_oren_nayar(vec3 wo, vec3 wi, const void *of)
+{
+    float sigma = (float)*(const double *)of, s2 = sigma * sigma;
+    float NoL = (float)wi[2], NoV = (float)wo[2];
+    float a = 1.0f - 0.5f * s2 / (s2 + 0.33f), b = 0.45f * s2 / (s2 + 0.09f);
+    float alpha = fmaxf(acosf(NoL), acosf(NoV)), beta = fminf(acosf(NoL), acosf(NoV));
+    vec3 n = vec3(0.0, 0.0, 1.0), vi = normalize(wi - wi[2] * n), vr = normalize(wo - wo[2] * n);
+    float g = (float)max(dot(vi, vr), isnan(vi[0]) ? NAN : 0.0);
+    return (double)(NoL * (a + b * g * sinf(alpha) * tanf(beta))) / (TURN / 2.0);
+}
+
+static double project_oren_nayar(vec3 wo, vec3 wi, const void *of)
+{
+    vec3 white = vec3(1.0, 1.0, 1.0);
+    return wi[2] * diffuse_oren_nayar(white, *(const double *)of, wi[2], wo[2], dot(wo, wi))[0];
+}
+
+static double project_eon(vec3 wo, vec3 wi, const void *of)
+{
+    vec3 white = vec3(1.0, 1.0, 1.0);
+    return wi[2] * diffuse_eon(white, *(const double *)of, wi[2], wo[2], dot(wo, wi))[0];
+}
+
+// 13: the same but where angles fail: light along the normal, where only A is left, and light and
+// eye together at the horizon, where sin alpha tan beta NoL becomes 1: float's tangent is negative.
+static void oren_nayar_needs_no_angles(void **state)
+{
+    (void)state;
+    double sigma = 0.5, pi = TURN / 2.0, a = 1.0 - 0.5 * 0.25 / 0.58, b = 0.45 * 0.25 / 0.34;
+    vec3 up = vec3(0.0, 0.0, 1.0), wo = towards(0.6), grazing = towards(1e-8);
+    assert_near(project_oren_nayar(wo, towards(0.8), &sigma),
+                printed_oren_nayar(wo, towards(0.8), &sigma), 1e-6);
+    assert_near(project_oren_nayar(wo, up, &sigma), a / pi, 1e-6);
+    assert_true(isnan(printed_oren_nayar(wo, up, &sigma)));
+    assert_near(project_oren_nayar(towards(1e-4), towards(1e-4), &sigma), b / pi, 1e-4);
+    assert_true(printed_oren_nayar(grazing, grazing, &sigma) < 0.0);
+}
+
+// 36: its A and B return more than they get at grazing angles; EON returns all.
+static void rough_diffuse_keeps_the_light(void **state)
+{
+    (void)state;
+    double sigma = 0.2, roughness = 0.5;
+    assert_near(reflected(project_eon, 0.02, &roughness), 1.0, 2e-3);
+    assert_true(reflected(printed_oren_nayar, 0.02, &sigma) > 1.01);
+}
+
 // ---- Blinn --------------------------------------------------------------------------------------
 
 typedef struct lit {
@@ -349,6 +397,8 @@ int main(void)
         cmocka_unit_test(the_base_gets_what_is_left),
         cmocka_unit_test(lambert_is_divided_by_pi),
         cmocka_unit_test(lambert_leaves_by_the_cosine),
+        cmocka_unit_test(oren_nayar_needs_no_angles),
+        cmocka_unit_test(rough_diffuse_keeps_the_light),
         cmocka_unit_test(no_highlight_without_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
