@@ -341,19 +341,20 @@ static void harmonics_have_a_y(void **state)
     assert_misses(printed, truth, 0.9);
 }
 
-// 28: AmbColor is l_C, the mean over all normals, and not l_A.
+// 28: AmbColor is l_C, the mean of l_A over all normals, and not l_A.
 static void the_constant_is_the_mean(void **state)
 {
     (void)state;
-    ambient_light sky = ambient_from_hemispheric(WHITE, BLACK, vec3(0.0, 1.0, 0.0));
-    double mean = 0.0, up = ambient_at(sky, vec3(0.0, 1.0, 0.0))[0];
-    enum { STEPS = 1000 };
+    vec3 axis = vec3(0.0, 1.0, 0.0);
+    ambient_light sky = ambient_from_hemispheric(WHITE, BLACK, axis);
+    double mean = 0.0;
+    enum { STEPS = 8 };
     for (int i = 0; i < STEPS; i++) {
         double y = 1.0 - 2.0 * (i + 0.5) / STEPS;
-        mean += ambient_at(sky, vec3(sqrt(1.0 - y * y), y, 0.0))[0] / STEPS;
+        mean += half_sky(axis, vec3(sqrt(1.0 - y * y), y, 0.0)) / STEPS;
     }
-    assert_near(sky.c0[0], mean, 1e-6);
-    assert_misses(sky.c0[0], up, 0.4);
+    assert_near(sky.c0[0], mean, 1e-3);
+    assert_misses(half_sky(axis, axis), mean, 0.4);
 }
 
 // 29: deviations greater than the constant make the printed sum negative; light is not.
