@@ -44,6 +44,7 @@ bench: ## build and run the benchmarks
 	@for scene in spheres grid million nodes; do \
 	    build/bench/bench/bench_frames demo:$$scene || exit 1; done
 	@build/bench/bench/bench_scale
+	@build/bench/bench/bench_light_cost
 
 accuracy: ## print the sphere light's error against quadrature, methods side by side
 	@scripts/packages.sh build run test
