@@ -2,7 +2,7 @@
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: help render build test sanitize clang bench accuracy tables format install clean
+.PHONY: help render build test sanitize clang bench accuracy plots tables format install clean
 
 help: ## what can be made (the default)
 	@echo "Argand: a physically based real-time renderer."
@@ -51,6 +51,13 @@ accuracy: ## print the sphere light's error against quadrature, methods side by 
 	@test -f build/bench/build.ninja || cmake --preset release -B build/bench -DARGAND_BENCH=ON
 	@cmake --build build/bench -j $(JOBS) --target accuracy
 	@build/bench/bench/accuracy && build/bench/bench/accuracy 10 0.6
+
+plots: ## draw the errors of the sphere light's methods to docs/accuracy-*.svg
+	@scripts/packages.sh build run test plots
+	@test -f build/bench/build.ninja || cmake --preset release -B build/bench -DARGAND_BENCH=ON
+	@cmake --build build/bench -j $(JOBS) --target accuracy
+	@build/bench/bench/accuracy --tsv >build/bench/accuracy.tsv
+	@gnuplot -e 'table="build/bench/accuracy.tsv"; folder="docs"' scripts/accuracy.gp
 
 tables: build ## fit the table of linearly transformed cosines again (a minute)
 	@cmake --build --preset release -j $(JOBS) --target tables
