@@ -9,7 +9,9 @@
 #include "physics/environment.glsl"
 #include "physics/exposure.glsl"
 #include "physics/fresnel.glsl"
+#include "physics/light_ltc.glsl"
 #include "physics/light_punctual.glsl"
+#include "physics/light_representative.glsl"
 #include "physics/microfacet.glsl"
 #include "physics/sampling.glsl"
 #include "physics/sh.glsl"
@@ -17,7 +19,7 @@
 #include "physics/surface.glsl"
 #include "physics/tonemap.glsl"
 
-#define CASE_COUNT 46u
+#define CASE_COUNT 50u
 
 // A vector's components told apart.
 static inline real case_mark(vec3 v)
@@ -57,6 +59,26 @@ static inline ambient_light case_ambient(vec4 u)
     a.cxz = 0.4f * color;
     a.cxxyy = 0.5f * color;
     return a;
+}
+
+// A light of each shape by linearly transformed cosines (0, 1, 2) or its representative point (3).
+static inline real case_area_light(uint shape, vec4 u, vec3 v)
+{
+    vec3 to = 0.5f * case_direction(u[3], u[2]) + vec3(-v[0], -v[1], v[2]); // near the mirror ray
+    vec3 x = vec3(0.3f, 0.1f * u[0], 0.2f);
+    vec3 y = vec3(-0.1f, 0.4f, 0.1f * u[1]);
+    vec4 m = light_ltc_matrix(vec4(0.4f + 0.6f * u[0], -0.5f * u[1], u[2], 0.4f + u[3]), 0.5f);
+    light_cap cap = light_cap_sphere(2.0f * to, 0.2f + 1.5f * u[1]);
+    vec2 result = vec2(0.0f, 0.0f);
+    if (shape == 0u)
+        result = light_ltc_cap(cap, v, m, vec2(0.6f, 0.2f));
+    else if (shape == 1u)
+        result = light_ltc_disk(to, y, x, v, m, vec2(0.6f, 0.2f));
+    else if (shape == 2u)
+        result = light_ltc_tube(to, x, 0.1f, v, m, vec2(0.6f, 0.2f));
+    else
+        result = light_representative_cap(cap, v, 0.2f + 0.8f * u[0]);
+    return result[0] + 2.0f * result[1];
 }
 
 // `id` below CASE_COUNT; the components of u lie in [0, 1).
@@ -122,6 +144,10 @@ static inline real physics_case(uint id, vec4 u)
     case 43u: return case_mark(tonemap(to_uint(u[3] * 8.0f) % 6u, 4.0f * color));
     case 44u: return case_mark(ambient_hemispheric(color, bright, wo, wi));
     case 45u: return case_mark(ambient_at(case_ambient(u), wo));
+    case 46u: return case_area_light(0u, u, wo);
+    case 47u: return case_area_light(1u, u, wo);
+    case 48u: return case_area_light(2u, u, wo);
+    case 49u: return case_area_light(3u, u, wo);
     }
     return 0.0f;
 }
