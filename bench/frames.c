@@ -17,8 +17,9 @@ static int compare(const void *a, const void *b)
 
 static ag_status load(ag_scene *scene, const char *input, const char *environment)
 {
-    ag_status status = strncmp(input, "demo:", 5) == 0 ? ag_scene_load_demo(scene, input + 5)
-                                                       : ag_scene_load(scene, input, NULL);
+    ag_status status = strncmp(input, "demo:", 5) == 0
+                           ? ag_scene_load_demo(scene, input + 5, AG_LOOK_ARGAND)
+                           : ag_scene_load(scene, input, NULL);
     if (status || !environment || strcmp(environment, "-") == 0)
         return status;
     ag_image *image;

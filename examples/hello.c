@@ -14,7 +14,8 @@ static ag_status make_picture(ag_renderer *renderer, const char *model, const ch
     ag_scene *scene = NULL;
     ag_status status = ag_scene_create(NULL, &scene);
     if (!status)
-        status = model ? ag_scene_load(scene, model, NULL) : ag_scene_load_demo(scene, "spheres");
+        status = model ? ag_scene_load(scene, model, NULL)
+                       : ag_scene_load_demo(scene, "spheres", AG_LOOK_TEXT);
 
     // Zero means the default everywhere: 1024 pixels, four samples, Khronos PBR Neutral.
     ag_render_options options = { .width = 800, .height = 600 };

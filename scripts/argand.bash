@@ -8,6 +8,8 @@ _argand() {
     case $before in
     argand | */argand) words='render info devices demo help --version' ;;
     --tonemap) words='none reinhard aces aces-narkowicz neutral agx' ;;
+    --transfer) words='srgb gamma2.2' ;;
+    --area-lights) words='exact ltc representative-point' ;;
     --quality) words='fast default best' ;;
     --background) words='env transparent' ;;
     --env) words='studio sky none' files=1 ;;

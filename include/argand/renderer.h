@@ -77,6 +77,12 @@ typedef enum ag_tonemap {
     AG_TONEMAP_AGX,
 } ag_tonemap;
 
+// How display-linear light is coded in 8 bits.
+typedef enum ag_transfer {
+    AG_TRANSFER_SRGB = 0, // IEC 61966-2-1, both branches
+    AG_TRANSFER_GAMMA_22, // the power 1/2.2: darker parts come out up to twice as bright
+} ag_transfer;
+
 typedef enum ag_background {
     AG_BACKGROUND_ENVIRONMENT = 0,
     AG_BACKGROUND_TRANSPARENT,
@@ -100,15 +106,21 @@ typedef enum ag_area_lights {
 
 typedef struct ag_render_options {
     uint32_t width, height; // px; 0 -> 1024.  Above the device's limit: tiles
-    ag_format format;       // RGBA8: tone-mapped, sRGB-coded; RGBA32F: linear, exposed
+    ag_format format;       // RGBA8: tone-mapped and coded; RGBA32F: linear, exposed
     ag_quality quality;
     ag_tonemap tonemap;
+    ag_transfer transfer;
     ag_area_lights area_lights;
     ag_background background;
     float background_color[3]; // sRGB-coded, shown as it is, not exposed
     float exposure;            // linear factor; 0 -> ag_scene_exposure()
     ag_progress progress;      // stage "render"
 } ag_render_options;
+
+// The look of the text that a built-in scene comes from, as far as it is not in the scene:
+// sets `tonemap` and `transfer`, nothing else.  False, and nothing is set, for a scene that
+// comes from no text or is not there.
+AG_API bool ag_demo_look(const char *name, ag_render_options *options);
 
 // Milliseconds of wall time that one render spent, and what it drew.
 typedef struct ag_render_stats {

@@ -55,10 +55,17 @@ typedef struct ag_load_options {
 // defaults.  AG_ERROR_UNSUPPORTED names a required extension that is not known.
 AG_CHECK ag_status ag_scene_load(ag_scene *scene, const char *path, const ag_load_options *options);
 
+// Some built-in scenes come from a text, whose shading and exposure they have; see
+// ag_demo_look().  The others are the same in both looks.
+typedef enum ag_look {
+    AG_LOOK_TEXT = 0, // the text's, its errors corrected (docs/errata.md)
+    AG_LOOK_ARGAND,   // surfaces that conserve energy
+} ag_look;
+
 // Append a scene that is built in ("spheres", say) with its lights and one camera, fitted
-// to square pictures; its environment replaces the one there is.  AG_ERROR_ARGUMENT for
-// an unknown name lists those there are.
-AG_CHECK ag_status ag_scene_load_demo(ag_scene *scene, const char *name);
+// to square pictures; its environment, and its exposure if it has one, replace those of the
+// scene.  AG_ERROR_ARGUMENT for an unknown name lists those there are.
+AG_CHECK ag_status ag_scene_load_demo(ag_scene *scene, const char *name, ag_look look);
 
 // The built-in scenes: name and one line about demo `index`; false past the last.
 AG_API bool ag_scene_demo(size_t index, const char **name, const char **about);

@@ -144,7 +144,7 @@ STRUCT_BEGIN(gpu_surface_constants)
     uint unlit;
     uint environment; // GPU_ENVIRONMENT_
     uint lights;      // how many punctual ones, all near
-    uint tone;        // TONEMAP_ of tonemap.glsl, or GPU_TONE_LINEAR
+    uint tone;        // of display.glsl, or GPU_TONE_LINEAR
     uint samples;     // of a pixel
     uint groups;      // bit g: there are lights of group g, beyond the near ones
     uint clustered;

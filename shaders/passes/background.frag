@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "physics/display.glsl"
 #include "physics/environment.glsl"
-#include "physics/tonemap.glsl"
 #include "passes/frame.glsl"
 
 // Of gpu_surface_constants
@@ -44,6 +44,6 @@ void main()
         color = behind_suns(d, color);
     color *= frame.exposure;
     if (TONE != GPU_TONE_LINEAR)
-        color = tonemap(TONE, color);
+        color = display(TONE, color);
     out_color = vec4(min(color, 60000.0), 1.0);
 }

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "physics/tonemap.glsl"
+#include "physics/display.glsl"
 #include "passes/frame.glsl"
 
 layout(constant_id = 6) const uint TONE = 0u;
@@ -14,6 +14,6 @@ void main()
 {
     vec3 color = min(in_radiance * frame.exposure, 60000.0);
     if (TONE != GPU_TONE_LINEAR)
-        color = tonemap(TONE, color);
+        color = display(TONE, color);
     out_color = vec4(color, 1.0);
 }

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "physics/tonemap.glsl"
+#include "physics/display.glsl"
 #include "interop/scene.glsl"
 
 layout(constant_id = 6) const uint TONE = 0u;
@@ -17,6 +17,6 @@ void main()
 {
     vec4 c = texelFetch(picture, ivec2(gl_FragCoord.xy), 0);
     if (TONE != GPU_TONE_LINEAR && c.a > 0.0)
-        c.rgb = c.a * tonemap(TONE, c.rgb / c.a);
+        c.rgb = c.a * display(TONE, c.rgb / c.a);
     out_color = c + (1.0 - c.a) * push.background;
 }

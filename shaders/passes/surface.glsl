@@ -1,9 +1,9 @@
 // Surfaces: what the material says of the place `here`, and the light that it sends to the eye.
+#include "physics/display.glsl"
 #include "physics/environment.glsl"
 #include "physics/sh.glsl"
 #include "physics/specular_aa.glsl"
 #include "physics/surface.glsl"
-#include "physics/tonemap.glsl"
 #include "passes/frame.glsl"
 
 // gpu_surface_constants
@@ -160,7 +160,7 @@ vec4 color_here(vec4 base)
     vec3 color = UNLIT != 0u ? base.rgb : radiance_to_eye(base.rgb);
     color *= frame.exposure;
     if (TONE != GPU_TONE_LINEAR)
-        color = tonemap(TONE, color);
+        color = display(TONE, color);
     float alpha = ALPHA_MODE == GPU_ALPHA_BLEND ? base.a : 1.0;
     return vec4(min(color, 60000.0) * alpha, alpha);
 }

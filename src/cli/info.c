@@ -26,7 +26,7 @@ static ag_status load(const char *input, const ag_log *log, ag_scene **scene)
     if (status)
         return status;
     if (strncmp(input, "demo:", 5) == 0)
-        return ag_scene_load_demo(*scene, input + 5);
+        return ag_scene_load_demo(*scene, input + 5, AG_LOOK_TEXT);
     return ag_scene_load(*scene, input, NULL);
 }
 

@@ -50,7 +50,8 @@ static ag_status load_scene(work *w)
     if (status)
         return status;
     if (strncmp(input, "demo:", 5) == 0)
-        return ag_scene_load_demo(w->scene, input + 5);
+        return ag_scene_load_demo(w->scene, input + 5,
+                                  w->request->correct ? AG_LOOK_ARGAND : AG_LOOK_TEXT);
     ag_load_options options = { .progress = console_progress(&w->console) };
     return ag_scene_load(w->scene, input, &options);
 }
@@ -169,6 +170,17 @@ static ag_status choose_camera(work *w, ag_camera_desc *camera)
     return AG_OK;
 }
 
+// A built-in scene's own look, and what was asked for before it.
+static void set_look(const render_request *r, ag_render_options *options)
+{
+    if (!r->correct && strncmp(r->input, "demo:", 5) == 0)
+        ag_demo_look(r->input + 5, options);
+    if (r->tonemap_given)
+        options->tonemap = (ag_tonemap)r->tonemap;
+    if (r->transfer_given)
+        options->transfer = (ag_transfer)r->transfer;
+}
+
 static ag_status render(work *w)
 {
     const render_request *r = w->request;
@@ -181,11 +193,12 @@ static ag_status render(work *w)
         .height = r->size.height,
         .format = w->format,
         .quality = (ag_quality)r->quality,
-        .tonemap = (ag_tonemap)r->tonemap,
+        .area_lights = (ag_area_lights)r->area_lights,
         .background = r->background.kind,
         .exposure = r->exposure,
         .progress = console_progress(&w->console),
     };
+    set_look(r, &options);
     memcpy(options.background_color, r->background.color, sizeof options.background_color);
     return ag_renderer_render(w->renderer, w->scene, &camera, &options, &w->picture,
                               &w->report.stats);

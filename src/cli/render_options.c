@@ -18,6 +18,19 @@ static const choice tonemaps[] = {
     { NULL, 0 },
 };
 
+static const choice transfers[] = {
+    { "srgb", AG_TRANSFER_SRGB },
+    { "gamma2.2", AG_TRANSFER_GAMMA_22 },
+    { NULL, 0 },
+};
+
+static const choice area_lights[] = {
+    { "exact", AG_AREA_LIGHTS_EXACT },
+    { "ltc", AG_AREA_LIGHTS_LTC },
+    { "representative-point", AG_AREA_LIGHTS_REPRESENTATIVE_POINT },
+    { NULL, 0 },
+};
+
 static const choice qualities[] = {
     { "fast", AG_QUALITY_FAST },
     { "default", AG_QUALITY_DEFAULT },
@@ -89,7 +102,14 @@ const option render_options[] = {
       FIELD(ev100), value_ev100, NULL, FIELD(ev100_given) },
     { "--tonemap", NULL, "CURVE", "neutral",
       "none, reinhard, aces, aces-narkowicz, neutral or agx (neutral)", FIELD(tonemap), NULL,
-      tonemaps, 0 },
+      tonemaps, FIELD(tonemap_given) },
+    { "--transfer", NULL, "srgb|gamma2.2", "srgb", "how light is coded in 8 bits (srgb)",
+      FIELD(transfer), NULL, transfers, FIELD(transfer_given) },
+    { "--correct", NULL, NULL, "", "a built-in scene in Argand's look, not that of its text",
+      FIELD(correct), NULL, NULL, 0 },
+    { "--area-lights", NULL, "METHOD", "ltc",
+      "highlights: exact, ltc or representative-point (exact)", FIELD(area_lights), NULL,
+      area_lights, 0 },
     { "--quality", NULL, "LEVEL", "best", "fast, default or best (default)", FIELD(quality), NULL,
       qualities, 0 },
     { "--device", NULL, "auto|cpu|INDEX|NAME", "cpu",
@@ -127,6 +147,17 @@ static bool known_demo(const char *name)
     return false;
 }
 
+static bool can_be_corrected(const char *input)
+{
+    ag_render_options unused;
+    if (strncmp(input, "demo:", 5) == 0 && ag_demo_look(input + 5, &unused))
+        return true;
+    fprintf(stderr,
+            "argand: %s: comes from no text whose look --correct could replace; leave it out.\n",
+            input);
+    return false;
+}
+
 // What each option alone cannot know.
 static bool sound(const render_request *r)
 {
@@ -141,7 +172,9 @@ static bool sound(const render_request *r)
         return refuse("--exposure and --ev100 say the same in two ways; give one of them.");
     if (r->quiet && r->verbose)
         return refuse("--quiet and --verbose contradict each other; give one of them.");
-    return strncmp(r->input, "demo:", 5) != 0 || known_demo(r->input + 5);
+    if (strncmp(r->input, "demo:", 5) == 0 && !known_demo(r->input + 5))
+        return false;
+    return !r->correct || can_be_corrected(r->input);
 }
 
 bool render_request_parse(render_request *r, int argc, char **argv, bool *help)

@@ -29,12 +29,13 @@ typedef struct render_request {
     environment_choice environment;
     float environment_rotation_rad, environment_intensity;
     background_choice background;
-    light_list lights;     // besides those of the scene
-    float exposure, ev100; // exposure 0 = the scene's
-    int tonemap, quality;  // ag_tonemap, ag_quality
+    light_list lights;                           // besides those of the scene
+    float exposure, ev100;                       // exposure 0 = the scene's
+    int tonemap, transfer, quality, area_lights; // of the enumerations of these names
+    bool correct;                                // a built-in scene not as its text has it
     const char *device;
     bool validate, json, quiet, verbose;
-    bool orbit_given, target_given, exposure_given, ev100_given;
+    bool orbit_given, target_given, exposure_given, ev100_given, tonemap_given, transfer_given;
     bool environment_given; // or its rotation, or its intensity
 } render_request;
 

@@ -5,6 +5,7 @@
 #include "render/clusters.h"
 
 #include "physics/color.glsl"
+#include "physics/display.glsl"
 #include "physics/sampling.glsl"
 
 #include <math.h>
@@ -12,10 +13,18 @@
 
 // ---- Pipelines ---------------------------------------------------------------
 
-// The tone curve that the surfaces' own shader applies.
+// What turns exposed light into the picture.
+static uint32_t display_tone(const ag_render_options *o)
+{
+    if (o->format == AG_FORMAT_RGBA32F)
+        return GPU_TONE_LINEAR;
+    return (uint32_t)o->tonemap | (o->transfer == AG_TRANSFER_GAMMA_22 ? DISPLAY_GAMMA_22 : 0);
+}
+
+// The part of it that the surfaces' own shader does.
 static uint32_t surface_tone(const picture *p)
 {
-    return p->hdr ? GPU_TONE_LINEAR : (uint32_t)p->options->tonemap;
+    return p->hdr ? GPU_TONE_LINEAR : display_tone(p->options);
 }
 
 static uint32_t environment_kind(const ag_renderer *r, const picture *p)
@@ -286,10 +295,9 @@ static ag_status record_resolve(ag_renderer *r, const picture *p, uint32_t index
     if (status || !last)
         return status;
     gpu_barrier_image(&r->commands, &t->picture, dropped, GPU_ACCESS_COLOR);
-    bool linear = p->options->format == AG_FORMAT_RGBA32F;
-    return record_pass(
-        r, PIPELINE_RESOLVE, linear ? GPU_TONE_LINEAR : (uint32_t)p->options->tonemap,
-        t->desc.sum ? r->bindings.sum : r->bindings.picture, &t->picture, false, warm_up, push);
+    return record_pass(r, PIPELINE_RESOLVE, display_tone(p->options),
+                       t->desc.sum ? r->bindings.sum : r->bindings.picture, &t->picture, false,
+                       warm_up, push);
 }
 
 // ---- Frames ------------------------------------------------------------------

@@ -76,7 +76,8 @@ static ag_status check_options(const ag_scene *scene, ag_render_options *o)
                         (double)o->exposure);
     if ((unsigned)o->tonemap > AG_TONEMAP_AGX || (unsigned)o->background > AG_BACKGROUND_COLOR ||
         (unsigned)o->quality > AG_QUALITY_BEST || (unsigned)o->format > AG_FORMAT_RGBA32F ||
-        (unsigned)o->area_lights > AG_AREA_LIGHTS_REPRESENTATIVE_POINT)
+        (unsigned)o->area_lights > AG_AREA_LIGHTS_REPRESENTATIVE_POINT ||
+        (unsigned)o->transfer > AG_TRANSFER_GAMMA_22)
         return log_fail(log, AG_ERROR_ARGUMENT,
                         "a render option has a value that its enumeration lacks");
     return AG_OK;

@@ -3,6 +3,8 @@
 
 #include "base/log.h"
 
+#include <argand/renderer.h>
+
 #include <stdio.h>
 #include <string.h>
 
@@ -18,8 +20,24 @@ static const struct demo {
     { "lights", "a point, a spot and a directional light on a floor", demo_lights },
     { "million", "98 spheres of together one million triangles", demo_million },
     { "nodes", "10,000 boxes", demo_nodes },
+    { "specular", "the text on specular lighting: textured shapes, 30 spheres, 7 point lights",
+      demo_specular },
+    { "sphere-lights", "the text on sphere lights: the same under lamps with a size",
+      demo_sphere_lights },
 };
 enum { DEMOS = sizeof demos / sizeof *demos };
+
+// Of the texts that some of them come from.
+static const struct look {
+    const char *demo;
+    ag_tonemap tonemap;
+    ag_transfer transfer;
+} looks[] = {
+    { "grid", AG_TONEMAP_REINHARD, AG_TRANSFER_GAMMA_22 },
+    { "specular", AG_TONEMAP_ACES_NARKOWICZ, AG_TRANSFER_SRGB },
+    { "sphere-lights", AG_TONEMAP_ACES_NARKOWICZ, AG_TRANSFER_SRGB },
+};
+enum { LOOKS = sizeof looks / sizeof *looks };
 
 bool ag_scene_demo(size_t index, const char **name, const char **about)
 {
@@ -28,6 +46,17 @@ bool ag_scene_demo(size_t index, const char **name, const char **about)
     *name = demos[index].name;
     *about = demos[index].about;
     return true;
+}
+
+bool ag_demo_look(const char *name, ag_render_options *options)
+{
+    for (size_t i = 0; i < LOOKS; i++)
+        if (strcmp(name, looks[i].demo) == 0) {
+            options->tonemap = looks[i].tonemap;
+            options->transfer = looks[i].transfer;
+            return true;
+        }
+    return false;
 }
 
 static ag_status unknown(const ag_scene *scene, const char *name)
@@ -41,13 +70,13 @@ static ag_status unknown(const ag_scene *scene, const char *name)
                     "There is no built-in scene \"%s\"; there are: %s.", name, list);
 }
 
-ag_status ag_scene_load_demo(ag_scene *scene, const char *name)
+ag_status ag_scene_load_demo(ag_scene *scene, const char *name, ag_look look)
 {
     for (size_t i = 0; i < DEMOS; i++) {
         if (strcmp(name, demos[i].name) != 0)
             continue;
         scene_mark mark = scene_mark_now(scene);
-        stage s = { .scene = scene };
+        stage s = { .scene = scene, .look = look };
         demos[i].build(&s);
         if (s.status != AG_OK)
             scene_rollback(scene, mark);

@@ -11,5 +11,7 @@ void demo_furnace(stage *s);
 void demo_lights(stage *s);
 void demo_million(stage *s);
 void demo_nodes(stage *s);
+void demo_specular(stage *s);
+void demo_sphere_lights(stage *s);
 
 #endif

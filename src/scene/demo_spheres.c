@@ -31,8 +31,23 @@ void demo_spheres(stage *s)
     stage_camera(s, 0.0f, 0.5f * pi, 0.45f);
 }
 
-// The scene of the well-known lesson on direct lighting: metallic rises upwards in sevenths,
-// roughness to the right, 300 cd from each of four corners.
+static ag_material_desc grid_material(stage *s, float metallic, float roughness)
+{
+    ag_material_desc desc = ag_material_default();
+    vec3_store((vec3) { 0.5f, 0, 0 }, desc.base_color);
+    desc.metallic = metallic;
+    desc.roughness = roughness;
+    if (s->look == AG_LOOK_TEXT) {
+        desc.shadowing = AG_SHADOWING_SCHLICK;
+        desc.layering = AG_LAYERING_FRESNEL;
+        desc.single_bounce = true;
+    }
+    return desc;
+}
+
+// The scene of the text on direct lighting: metallic rises upwards in sevenths, roughness to the
+// right, 300 cd from each of four corners, and an ambient term: .03 of the albedo, of which
+// metals here have none.
 void demo_grid(stage *s)
 {
     enum { SIDE = 7 };
@@ -41,7 +56,7 @@ void demo_grid(stage *s)
         for (int column = 0; column < SIDE; column++) {
             float roughness = fminf(fmaxf((float)column / SIDE, 0.05f), 1.0f);
             ag_material material =
-                stage_paint(s, (vec3) { 0.5f, 0, 0 }, (float)row / SIDE, roughness);
+                stage_material(s, grid_material(s, (float)row / SIDE, roughness));
             vec3 at = { 2.5f * ((float)column - 3.0f), 2.5f * ((float)row - 3.0f), 0.0f };
             stage_show(s, sphere, material, at);
         }
@@ -51,6 +66,8 @@ void demo_grid(stage *s)
                            .kind = AG_LIGHT_POINT,
                            .position = { i & 1 ? 10.0f : -10.0f, i & 2 ? -10.0f : 10.0f, 10.0f },
                            .intensity = 300.0f });
+    if (s->look == AG_LOOK_TEXT)
+        stage_light(s, (ag_light_desc) { .kind = AG_LIGHT_AMBIENT, .intensity = 0.03f });
     stage_environment(s, AG_ENVIRONMENT_NONE);
     stage_camera(s, 0.0f, 0.5f * pi, 0.785398163f);
 }

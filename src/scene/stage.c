@@ -105,8 +105,20 @@ void stage_light(stage *s, ag_light_desc desc)
 
 void stage_environment(stage *s, ag_environment_kind kind)
 {
+    stage_surround(s, kind, 1.0f);
+}
+
+void stage_surround(stage *s, ag_environment_kind kind, float intensity)
+{
+    const ag_environment_desc desc = { .kind = kind, .intensity = intensity };
     if (s->status == AG_OK)
-        s->status = ag_scene_set_environment(s->scene, &(ag_environment_desc) { .kind = kind });
+        s->status = ag_scene_set_environment(s->scene, &desc);
+}
+
+void stage_exposure(stage *s, float exposure)
+{
+    if (s->status == AG_OK)
+        s->status = ag_scene_set_exposure(s->scene, exposure);
 }
 
 void stage_camera(stage *s, float theta_rad, float phi_rad, float fov_y_rad)
@@ -115,7 +127,11 @@ void stage_camera(stage *s, float theta_rad, float phi_rad, float fov_y_rad)
     orbit.theta_rad = theta_rad;
     orbit.phi_rad = phi_rad;
     orbit.fov_y_rad = fov_y_rad;
-    ag_camera_desc desc = ag_scene_frame(s->scene, &orbit, 1.0f);
+    stage_view(s, ag_scene_frame(s->scene, &orbit, 1.0f));
+}
+
+void stage_view(stage *s, ag_camera_desc desc)
+{
     desc.name = "demo";
     ag_camera camera;
     if (s->status == AG_OK)

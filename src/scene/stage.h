@@ -7,6 +7,7 @@
 
 typedef struct stage {
     ag_scene *scene;
+    ag_look look;
     ag_status status;
 } stage;
 
@@ -29,8 +30,11 @@ void stage_show_turned(stage *s, ag_mesh mesh, ag_material material, vec3 at, fl
 
 void stage_light(stage *s, ag_light_desc desc);
 void stage_environment(stage *s, ag_environment_kind kind);
+void stage_surround(stage *s, ag_environment_kind kind, float intensity);
+void stage_exposure(stage *s, float exposure);
 
 // A camera that frames all there is so far, for square and wider pictures.
 void stage_camera(stage *s, float theta_rad, float phi_rad, float fov_y_rad);
+void stage_view(stage *s, ag_camera_desc desc); // or one that stands somewhere
 
 #endif

@@ -58,6 +58,9 @@ done <<'END'
 --tonemap aces --background #336699 --target 0,auto,1 --orbit auto,auto,5 --ev100=-1
 --tonemap aces-narkowicz --background=transparent --env none --camera 0
 --tonemap agx --quality=best --camera=front -q
+--transfer gamma2.2 --area-lights ltc --light=sun
+--transfer=srgb --area-lights representative-point --light=sun
+--area-lights exact --light=sun
 --quality default --tonemap neutral --env studio --background env -v
 END
 # A camera through its name is the same camera as through its index; another one is not.
@@ -66,6 +69,26 @@ END
 "$argand" render "$triangle" -o c.png $small >out
 cmp -s a.png b.png || fail "--camera by name and by index differ"
 cmp -s a.png c.png && fail "--camera has no effect"
+rm ./*.png
+
+# Coding changes the picture, and not linear light.
+"$argand" render "$triangle" -o gamma.png $small --transfer gamma2.2 >out
+"$argand" render "$triangle" -o srgb.png $small >out
+cmp -s gamma.png srgb.png && fail "--transfer has no effect"
+"$argand" render "$triangle" -o gamma.exr $small --transfer gamma2.2 >out
+"$argand" render "$triangle" -o srgb.exr $small >out
+cmp -s gamma.exr srgb.exr || fail "--transfer changes linear light"
+rm ./*.png ./*.exr
+
+# A built-in scene has its text's look, unless told.
+demo="render demo:grid --size 32x32 --device cpu"
+"$argand" $demo -o text.png >out || fail "demo:grid"
+"$argand" $demo -o same.png --tonemap reinhard --transfer gamma2.2 >out
+cmp -s text.png same.png || fail "the look of demo:grid is not its text's"
+"$argand" $demo -o told.png --transfer srgb >out
+cmp -s text.png told.png && fail "--transfer does not win over the look"
+"$argand" $demo -o correct.png --correct >out || fail "--correct"
+cmp -s text.png correct.png && fail "--correct has no effect"
 rm ./*.png
 
 # Lights: every kind is taken, and only they light where there is nothing else.

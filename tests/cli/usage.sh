@@ -63,6 +63,9 @@ bad "RADIUS below 0 metres" --orbit 0,90,-1
 bad "X,Y,Z in metres" --target 1,2
 bad "X,Y,Z in metres" --target 1,2,1e40
 bad "not one of none, reinhard, aces, aces-narkowicz, neutral or agx" --tonemap filmic
+bad "not one of srgb or gamma2.2" --transfer linear
+bad "not one of exact, ltc or representative-point" --area-lights good
+bad "comes from no text whose look --correct could replace" --correct
 bad "not one of fast, default or best" --quality great
 bad "not env, transparent or a colour" --background red
 bad "not env, transparent or a colour" --background '#12345'
@@ -116,6 +119,7 @@ expect 2 "which file" render -o x.png
 expect 2 "which file" info
 expect 2 "one argument too many" devices x
 expect 2 "did you mean demo:spheres" render demo:sphere -o x.png
+expect 2 "demo:spheres: comes from no text" render demo:spheres --correct -o x.png
 expect 2 "must end in .png, .jpg, .webp, .exr or .hdr" render "$triangle" -o x.bmp
 expect 2 "must end in" render "$triangle" -o png
 

@@ -1,7 +1,6 @@
 // Tone curves, sRGB and exposure against their standards and numbers worked out by hand.
-#include "physics/color.glsl"
+#include "physics/display.glsl"
 #include "physics/exposure.glsl"
-#include "physics/tonemap.glsl"
 
 #include <argand/renderer.h>
 
@@ -36,6 +35,18 @@ static void srgb_is_the_standard(void **state)
         float x = (float)i / 255.0f;
         assert_near((double)color_srgb_encode(color_srgb_decode(grey(x)))[0], (double)x, 1e-6);
     }
+}
+
+// What an sRGB target codes as x^(1/2.2): .5 is shown by code 186.1 of 255 instead of 187.5.
+static void gamma_is_coded_through_srgb(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= 100; i++) {
+        float x = (float)(i * i) * 1e-4f;
+        vec3 handed = display(TONEMAP_NONE | DISPLAY_GAMMA_22, grey(x));
+        assert_near((double)color_srgb_encode(handed)[0], pow((double)x, 1 / 2.2), 1e-6);
+    }
+    assert_near((double)display(TONEMAP_REINHARD, grey(3.0f))[1], 0.75, 1e-6);
 }
 
 static void luminance_is_rec_709(void **state)
@@ -133,6 +144,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(constants_are_the_public_ones),
         cmocka_unit_test(srgb_is_the_standard),
+        cmocka_unit_test(gamma_is_coded_through_srgb),
         cmocka_unit_test(luminance_is_rec_709),
         cmocka_unit_test(neutral_is_the_specification),
         cmocka_unit_test(aces_is_the_definition),

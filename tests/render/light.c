@@ -116,7 +116,7 @@ static void white_furnace(void **state)
 {
     ag_scene *scene;
     OK(ag_scene_create(NULL, &scene));
-    OK(ag_scene_load_demo(scene, "furnace"));
+    OK(ag_scene_load_demo(scene, "furnace", AG_LOOK_TEXT));
     stage_surround(scene, 1, 1, 1);
     ag_render_options options = { .width = 256, .height = 256, .format = AG_FORMAT_RGBA32F };
     const ag_quality qualities[] = { AG_QUALITY_DEFAULT, AG_QUALITY_FAST };

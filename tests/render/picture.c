@@ -71,6 +71,36 @@ static void bytes_are_tone_mapped_and_coded(void **state)
     ag_scene_destroy(scene);
 }
 
+// The code of a radiance x under the power 1/2.2 is 255 x^(1/2.2), in every path that pixels
+// can take; linear light and the background's colour are left alone.
+static void gamma_is_a_power(void **state)
+{
+    const float color[3] = { 0.5f, 0.18f, 0.001f };
+    ag_scene *scene = unlit_wall(color[0], color[1], color[2], 1, AG_ALPHA_OPAQUE);
+    const ag_camera_desc camera = stage_flat_camera();
+    ag_render_options options = { .width = 32,
+                                  .height = 32,
+                                  .tonemap = AG_TONEMAP_NONE,
+                                  .transfer = AG_TRANSFER_GAMMA_22,
+                                  .background = AG_BACKGROUND_COLOR,
+                                  .background_color = { 0.2f, 0.4f, 1 } };
+    for (int quality = 0; quality <= AG_QUALITY_BEST; quality++) {
+        options.quality = (ag_quality)quality;
+        ag_image *image = stage_render(*state, scene, &camera, &options);
+        const float around[3] = { 51, 102, 255 };
+        for (int c = 0; c < 3; c++) {
+            assert_close(stage_byte(image, 16, 16)[c], 255 * powf(color[c], 1 / 2.2f), 1.01f);
+            assert_close(stage_byte(image, 1, 1)[c], around[c], 1.01f);
+        }
+        ag_image_destroy(image);
+    }
+    options.format = AG_FORMAT_RGBA32F;
+    ag_image *image = stage_render(*state, scene, &camera, &options);
+    assert_close(stage_float(image, 16, 16)[1], color[1], 1e-3f);
+    ag_image_destroy(image);
+    ag_scene_destroy(scene);
+}
+
 // Half covered by the wall's edge: the pixel keeps the wall's colour, with half alpha.
 static void edges_are_straight_alpha(void **state)
 {
@@ -249,10 +279,15 @@ static void minified_colours_keep_their_light(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        KIT_TEST(every_pixel_is_in_its_place),       KIT_TEST(bytes_are_tone_mapped_and_coded),
-        KIT_TEST(edges_are_straight_alpha),          KIT_TEST(colours_lie_under_the_picture),
-        KIT_TEST(panes_blend_back_to_front),         KIT_TEST(walls_hide_panes),
-        KIT_TEST(cut_outs_end_at_the_cutoff),        KIT_TEST(textures_lie_as_told),
+        KIT_TEST(every_pixel_is_in_its_place),
+        KIT_TEST(bytes_are_tone_mapped_and_coded),
+        KIT_TEST(gamma_is_a_power),
+        KIT_TEST(edges_are_straight_alpha),
+        KIT_TEST(colours_lie_under_the_picture),
+        KIT_TEST(panes_blend_back_to_front),
+        KIT_TEST(walls_hide_panes),
+        KIT_TEST(cut_outs_end_at_the_cutoff),
+        KIT_TEST(textures_lie_as_told),
         KIT_TEST(minified_colours_keep_their_light),
     };
     return cmocka_run_group_tests(tests, kit_open, kit_close);

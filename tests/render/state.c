@@ -7,7 +7,7 @@ static ag_scene *demo(const char *name)
 {
     ag_scene *scene;
     OK(ag_scene_create(NULL, &scene));
-    OK(ag_scene_load_demo(scene, name));
+    OK(ag_scene_load_demo(scene, name, AG_LOOK_TEXT));
     return scene;
 }
 
