@@ -4,6 +4,7 @@
 
 #include <argand/base.h>
 #include <argand/image.h>
+#include <argand/metal.h>
 #include <argand/renderer.h>
 #include <argand/scene.h>
 

@@ -23,8 +23,8 @@ STRUCT(surface_frame) {
 STRUCT(surface_shine) {
     real irradiance; // of the surface, the horizon regarded
     vec2 lobe;       // GGX without Fresnel, and with the factor (1 - v.h)^5
-    vec3 middle;     // unit, up: from where the irradiance comes on the whole
-    vec3 nearest;    // unit, up: of the light's directions, the nearest to the mirror's
+    vec3 mean;       // direction of that irradiance; not unit: shorter as it is spread
+    vec3 peak;       // unit, up: from where most of the lobe's light comes
 };
 
 static inline surface_frame surface_frame_from(surface s, vec3 n, vec3 wo)
@@ -73,37 +73,61 @@ static inline real surface_ratio(surface s, surface_frame f, vec3 l)
 // Radiance towards the eye, per unit of the light.
 static inline vec3 surface_shone(surface s, surface_frame f, surface_shine light)
 {
-    vec3 h = f.v + light.middle;
-    real VoH = min(0.5f * sqrt(dot(h, h)), 1.0f);
-    vec3 base = surface_base(s, f.v[2], light.middle[2], dot(f.v, light.middle), VoH);
+    real LoV = dot(f.v, light.mean);
+    real VoH = sqrt(clamp(0.5f + 0.5f * LoV, 0.0f, 1.0f));
+    vec3 base = surface_base(s, f.v[2], light.mean[2], LoV, VoH);
     vec2 lobe = light.lobe;
     if ((s.model & SURFACE_DISTRIBUTION) == SURFACE_BLINN)
-        lobe = vec2(lobe[0] * surface_ratio(s, f, light.nearest), 0.0f);
+        lobe = vec2(lobe[0] * surface_ratio(s, f, light.peak), 0.0f);
     else if ((s.model & SURFACE_SHADOWING) == SURFACE_SCHLICK_GGX)
-        lobe = lobe * surface_ratio(s, f, light.nearest);
+        lobe = lobe * surface_ratio(s, f, light.peak);
     return light.irradiance * base + surface_lobe(s, lobe[0] - lobe[1], lobe[1]);
 }
 
 // ---- Spheres and suns --------------------------------------------------------
 
-// From where the visible part of the cap shines on the whole: its axis; raised half way to its
-// highest point where the horizon cuts it.
-static inline vec3 light_cap_middle(light_cap cap)
+// The mean direction of the irradiance that the cap gives, not a unit vector.  Above the horizon
+// it is the second moment of a cap, a + b axis axis^T, by the normal; where the horizon cuts it,
+// its height is a fit to the limits of small caps and of hemispheres, right to .05, and its
+// length goes to 1 as the cap sinks.
+static inline vec3 light_cap_mean(light_cap cap)
 {
-    real up = max(cap.axis[2], 0.5f * (cap.axis[2] + cap.sin_s));
-    return normalize(vec3(cap.axis[0], cap.axis[1], max(up, 1e-3f)));
+    real c = cap.cos_s;
+    real z = cap.axis[2];
+    real level = sqrt(max(1.0f - z * z, 0.0f));
+    // a and b over the irradiance of a facing surface, sin_s^2 / 2.
+    real third = (1.0f + c + c * c) / (1.0f + c) * (2.0f / 3.0f);
+    real a = 1.0f / (1.0f + c) - 0.5f * third;
+    real b = third - a;
+    real height = max(z, max(cap.sin_s, 1e-6f));
+    real up = a / height + b * height;
+    real along = b * level;
+    if (z < cap.sin_s) {
+        real q = max(z / height, -1.0f);
+        real low = min(q, 0.0f);
+        real whole = sqrt(up * up + b * b * c * c);
+        real size = 1.0f - (0.5f + 0.5f * q) * (1.0f - whole);
+        up = up * mix(0.471f + q * (0.5f + 0.029f * q), 1.0f - low * low, 1.0f - c);
+        along = sqrt(max(size * size - up * up, 0.0f));
+    }
+    real turn = along / max(level, 1e-6f);
+    return vec3(turn * cap.axis[0], turn * cap.axis[1], max(up, 0.0f));
 }
 
-// The direction in the cap nearest to the mirror's, and up.
-static inline vec3 light_cap_nearest(light_cap cap, vec3 v)
+// Where in the cap a lobe of that alpha finds most: the direction nearest to the mirror's under a
+// lobe much narrower than the light, the axis under a much wider one.  `mean` = light_cap_mean.
+static inline vec3 light_cap_peak(light_cap cap, vec3 v, real alpha, vec3 mean)
 {
     vec3 r = vec3(-v[0], -v[1], v[2]);
     real c = dot(r, cap.axis);
     vec3 off = r - c * cap.axis;
-    real inside = dot(off, off);
-    vec3 rim = cap.cos_s * cap.axis + cap.sin_s / sqrt(max(inside, 1e-12f)) * off;
-    vec3 d = c >= cap.cos_s ? r : rim;
-    return normalize(vec3(d[0], d[1], max(d[2], 1e-3f)));
+    vec3 rim = cap.cos_s * cap.axis + cap.sin_s / sqrt(max(dot(off, off), 1e-12f)) * off;
+    vec3 nearest = c >= cap.cos_s ? r : rim;
+    real s2 = cap.sin_s * cap.sin_s;
+    vec3 d = mix(cap.axis, nearest, s2 / (s2 + 3.0f * alpha * alpha + 1e-12f));
+    // What is below the horizon sends nothing.
+    real low = cap.axis[2] < cap.sin_s ? mean[2] : 0.0f;
+    return normalize(vec3(d[0], d[1], max(d[2], max(low, 1e-3f))));
 }
 
 // As surface_direct for a light of extent: times the irradiance that the light gives to a
@@ -119,8 +143,8 @@ static inline vec3 surface_cap(surface s, vec3 n, vec3 wo, light_cap cap)
     surface_shine light;
     light.irradiance = light_cap_cosine(local);
     light.lobe = light_cap_ggx(local, f.v, f.ax, f.ay);
-    light.middle = light_cap_middle(local);
-    light.nearest = light_cap_nearest(local, f.v);
+    light.mean = light_cap_mean(local);
+    light.peak = light_cap_peak(local, f.v, max(f.ax, f.ay), light.mean);
     return surface_shone(s, f, light);
 }
 
