@@ -96,8 +96,8 @@ vec3 lit_by_cap(gpu_light light, lit_surface lit)
     surface_shine shine;
     shine.irradiance = light_cap_cosine(cap);
     shine.lobe = cap_lobe(cap, lit);
-    shine.middle = light_cap_middle(cap);
-    shine.nearest = light_cap_nearest(cap, lit.f.v);
+    shine.mean = light_cap_mean(cap);
+    shine.nearest = light_cap_nearest(cap, lit.f.v, shine.mean);
     return falloff * light.intensity * surface_shone(lit.s, lit.f, shine);
 }
 
@@ -116,7 +116,7 @@ vec3 lit_by_rect(gpu_light light, lit_surface lit)
     shine.irradiance = PI * light_quad_form_factor(p0, p1, p2, p3);
     shine.lobe = uses_ltc() ? light_ltc_quad(p0, p1, p2, p3, lit.f.v, lit.ltc, lit.dfg)
                             : light_quad_ggx(p0, p1, p2, p3, lit.f.v, lit.f.ax, lit.f.ay);
-    shine.middle = light_direction_middle(c, max(x.z, -x.z) + max(y.z, -y.z));
+    shine.mean = light_direction_mean(c, 4.0 * cross(x, y));
     shine.nearest = light_direction_flat(c, x, y, lit.f.v, false);
     return window_of(light) * light.intensity * surface_shone(lit.s, lit.f, shine);
 }
@@ -129,7 +129,7 @@ vec3 lit_by_disk(gpu_light light, lit_surface lit)
     shine.irradiance = PI * light_disk_form_factor(c, x, y);
     shine.lobe = uses_ltc() ? light_ltc_disk(c, x, y, lit.f.v, lit.ltc, lit.dfg)
                             : light_disk_ggx(c, x, y, lit.f.v, lit.f.ax, lit.f.ay);
-    shine.middle = light_direction_middle(c, sqrt(x.z * x.z + y.z * y.z));
+    shine.mean = light_direction_mean(c, PI * cross(x, y));
     shine.nearest = light_direction_flat(c, x, y, lit.f.v, true);
     return window_of(light) * light.intensity * surface_shone(lit.s, lit.f, shine);
 }
@@ -151,7 +151,7 @@ vec3 lit_by_tube(gpu_light light, lit_surface lit)
     surface_shine shine;
     shine.irradiance = PI * light_tube_form_factor(c, axis, light.radius);
     shine.lobe = tube_lobe(c, axis, light.radius, lit);
-    shine.middle = light_direction_middle(c, max(axis.z, -axis.z) + light.radius);
+    shine.mean = light_direction_mean(c, light_direction_tube_area(c, axis, light.radius));
     shine.nearest = light_direction_tube(c, axis, light.radius, lit.f.v);
     return window_of(light) * light.intensity * surface_shone(lit.s, lit.f, shine);
 }

@@ -1,10 +1,10 @@
 // The directions that stand for a light of extent where a formula takes but one.
 //
-// All in the surface's frame, z = normal; the results are unit and up.
+// All in the surface's frame, z = normal; the results are unit and up, but for the mean.
 #ifndef AG_PHYSICS_LIGHT_DIRECTION_GLSL
 #define AG_PHYSICS_LIGHT_DIRECTION_GLSL
 
-#include "physics/lang.glsl"
+#include "physics/surface_light.glsl"
 
 static inline vec3 light_direction_up(vec3 d)
 {
@@ -13,12 +13,27 @@ static inline vec3 light_direction_up(vec3 d)
     return normalize(vec3(unit[0], unit[1], max(unit[2], 1e-3f)));
 }
 
-// From where a light around `centre` shines on the whole: there; half way to its highest point
-// where the horizon cuts it.  `half_height` = from the centre to that point, along the normal.
-static inline vec3 light_direction_middle(vec3 centre, real half_height)
+// light_cap_mean of a cap as large as the light seems: around `centre`, of that area, a vector
+// along its normal.
+static inline vec3 light_direction_mean(vec3 centre, vec3 area)
 {
-    real up = max(centre[2], 0.5f * (centre[2] + half_height));
-    return light_direction_up(vec3(centre[0], centre[1], up));
+    real d2 = max(dot(centre, centre), 1e-30f);
+    light_cap cap;
+    cap.axis = centre / sqrt(d2);
+    real facing = dot(area, cap.axis);
+    real s2 = min(max(facing, -facing) * INV_PI / d2, 1.0f);
+    cap.sin_s = sqrt(s2);
+    cap.cos_s = sqrt(1.0f - s2);
+    return light_cap_mean(cap);
+}
+
+// The area of a tube for it: seen from here, towards here.
+static inline vec3 light_direction_tube_area(vec3 centre, vec3 half_axis, real radius)
+{
+    vec3 side = cross(half_axis, centre);
+    real d2 = max(dot(centre, centre), 1e-30f);
+    real area = 4.0f * radius * sqrt(dot(side, side) / d2) + PI * radius * radius;
+    return area / sqrt(d2) * centre;
 }
 
 // Of a flat light with these half axes, towards the point nearest to where the mirror ray of v

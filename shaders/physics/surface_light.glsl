@@ -24,7 +24,7 @@ STRUCT(surface_shine) {
     real irradiance; // of the surface, the horizon regarded
     vec2 lobe;       // GGX without Fresnel, and with the factor (1 - v.h)^5
     vec3 mean;       // direction of that irradiance; not unit: shorter as it is spread
-    vec3 peak;       // unit, up: from where most of the lobe's light comes
+    vec3 nearest;    // unit, up: of the light's directions, the nearest to the mirror's
 };
 
 static inline surface_frame surface_frame_from(surface s, vec3 n, vec3 wo)
@@ -56,9 +56,16 @@ static inline vec3 surface_frame_in(surface_frame f, vec3 d)
     return vec3(dot(d, f.x), dot(d, f.y), dot(d, f.n));
 }
 
-// The lobe's other shadowing and distribution, by their ratio to GGX's at the direction l.
-static inline real surface_ratio(surface s, surface_frame f, vec3 l)
+// The lobe's other shadowing and distribution, by their ratio to GGX's where in the light the lobe
+// finds most: nearest to the mirror direction under a lobe much narrower than the light, in its
+// middle under a much wider one.  A cap of sine s has 1 - |mean|^2 = s^2 / 2.
+static inline real surface_ratio(surface s, surface_frame f, surface_shine light)
 {
+    real length2 = dot(light.mean, light.mean);
+    real spread = max(2.0f - 2.0f * length2, 0.0f);
+    real alpha = max(f.ax, f.ay);
+    vec3 middle = light.mean / sqrt(max(length2, 1e-12f));
+    vec3 l = normalize(mix(middle, light.nearest, spread / (spread + 3.0f * alpha * alpha)));
     vec3 h = f.v + l;
     real NoL = max(l[2], 1e-3f);
     real smith = microfacet_v_anisotropic(f.v, l, f.ax, f.ay);
@@ -78,9 +85,9 @@ static inline vec3 surface_shone(surface s, surface_frame f, surface_shine light
     vec3 base = surface_base(s, f.v[2], light.mean[2], LoV, VoH);
     vec2 lobe = light.lobe;
     if ((s.model & SURFACE_DISTRIBUTION) == SURFACE_BLINN)
-        lobe = vec2(lobe[0] * surface_ratio(s, f, light.peak), 0.0f);
+        lobe = vec2(lobe[0] * surface_ratio(s, f, light), 0.0f);
     else if ((s.model & SURFACE_SHADOWING) == SURFACE_SCHLICK_GGX)
-        lobe = lobe * surface_ratio(s, f, light.peak);
+        lobe = lobe * surface_ratio(s, f, light);
     return light.irradiance * base + surface_lobe(s, lobe[0] - lobe[1], lobe[1]);
 }
 
@@ -114,18 +121,14 @@ static inline vec3 light_cap_mean(light_cap cap)
     return vec3(turn * cap.axis[0], turn * cap.axis[1], max(up, 0.0f));
 }
 
-// Where in the cap a lobe of that alpha finds most: the direction nearest to the mirror's under a
-// lobe much narrower than the light, the axis under a much wider one.  `mean` = light_cap_mean.
-static inline vec3 light_cap_peak(light_cap cap, vec3 v, real alpha, vec3 mean)
+// The direction in the cap nearest to the mirror's; as high as `mean` where the horizon cuts it.
+static inline vec3 light_cap_nearest(light_cap cap, vec3 v, vec3 mean)
 {
     vec3 r = vec3(-v[0], -v[1], v[2]);
     real c = dot(r, cap.axis);
     vec3 off = r - c * cap.axis;
     vec3 rim = cap.cos_s * cap.axis + cap.sin_s / sqrt(max(dot(off, off), 1e-12f)) * off;
-    vec3 nearest = c >= cap.cos_s ? r : rim;
-    real s2 = cap.sin_s * cap.sin_s;
-    vec3 d = mix(cap.axis, nearest, s2 / (s2 + 3.0f * alpha * alpha + 1e-12f));
-    // What is below the horizon sends nothing.
+    vec3 d = c >= cap.cos_s ? r : rim;
     real low = cap.axis[2] < cap.sin_s ? mean[2] : 0.0f;
     return normalize(vec3(d[0], d[1], max(d[2], max(low, 1e-3f))));
 }
@@ -144,7 +147,7 @@ static inline vec3 surface_cap(surface s, vec3 n, vec3 wo, light_cap cap)
     light.irradiance = light_cap_cosine(local);
     light.lobe = light_cap_ggx(local, f.v, f.ax, f.ay);
     light.mean = light_cap_mean(local);
-    light.peak = light_cap_peak(local, f.v, max(f.ax, f.ay), light.mean);
+    light.nearest = light_cap_nearest(local, f.v, light.mean);
     return surface_shone(s, f, light);
 }
 

@@ -22,7 +22,7 @@ static const choice choices[] = {
     { "Oren-Nayar", SURFACE_OREN_NAYAR, 0, 1, 0.03, 0.02 },
     { "EON", SURFACE_EON, 0, 1, 0.04, 0.03 },
     { "anisotropic", SURFACE_ANISOTROPIC, 1, 1, 0.02, 0.02 },
-    { "Schlick-GGX", SURFACE_SCHLICK_GGX, 1, 1, 0.06, 0.09 },
+    { "Schlick-GGX", SURFACE_SCHLICK_GGX, 1, 1, 0.05, 0.15 },
     { "conductor", SURFACE_CONDUCTOR, 1, 1, 0.02, 0.02 },
     { "F82", SURFACE_F82, 1, 1, 0.02, 0.02 },
     { "layered by F", SURFACE_LAYERED_BY_F, 0, 1, 0.03, 0.02 },
