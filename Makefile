@@ -45,6 +45,7 @@ bench: ## build and run the benchmarks
 	    build/bench/bench/bench_frames demo:$$scene || exit 1; done
 	@build/bench/bench/bench_scale
 	@build/bench/bench/bench_light_cost
+	@build/bench/bench/bench_lights
 
 accuracy: ## print the sphere light's error against quadrature, methods side by side
 	@scripts/packages.sh build run test

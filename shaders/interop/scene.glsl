@@ -65,15 +65,18 @@ STRUCT_BEGIN(gpu_light)
     float3 radiance; // nit, of the body; 0 = hidden
 STRUCT_END(gpu_light)
 
-// The grid that is laid around a light's body: an odd number of rows, so that none of its
-// points is on a tube's middle.
-#define GPU_BODY_COLUMNS 48
-#define GPU_BODY_ROWS    25
+// The grid that is laid around a light's body, halved a few times for small ones; an odd number
+// of rows, so that none of its points is on a tube's middle.  The level stands in the upper bits
+// of a vertex's index.
+#define GPU_BODY_COLUMNS     48
+#define GPU_BODY_ROWS        25
+#define GPU_BODY_LEVELS      3
+#define GPU_BODY_LEVEL_SHIFT 12
 
 // Under many lights the picture is cut into clusters, GPU_CLUSTERS tiles across, as many down,
 // as many slices of depth.  Each has a first and GPU_LIGHT_GROUPS ends in a list of lights,
 // which follows the clusters in their buffer.
-#define GPU_CLUSTERS      16
+#define GPU_CLUSTERS      32
 #define GPU_CLUSTER_WORDS 6
 
 // One view of the scene.

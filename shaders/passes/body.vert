@@ -53,9 +53,11 @@ bool is_seen(gpu_light light)
 void main()
 {
     gpu_light light = lights[gl_InstanceIndex];
-    int points = GPU_BODY_COLUMNS + 1;
-    vec2 cell = vec2(gl_VertexIndex % points, gl_VertexIndex / points);
-    vec3 p = point_of(light, cell / vec2(GPU_BODY_COLUMNS, GPU_BODY_ROWS));
+    int level = gl_VertexIndex >> GPU_BODY_LEVEL_SHIFT;
+    int columns = GPU_BODY_COLUMNS >> level, rows = GPU_BODY_ROWS >> level | 1;
+    int i = gl_VertexIndex & ((1 << GPU_BODY_LEVEL_SHIFT) - 1);
+    vec2 cell = vec2(i % (columns + 1), i / (columns + 1));
+    vec3 p = point_of(light, cell / vec2(columns, rows));
     out_radiance = light.radiance;
     gl_Position = is_seen(light) ? frame.clip_from_world * vec4(p, 1.0) : vec4(0.0, 0.0, -1.0, 1.0);
 }

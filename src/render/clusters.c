@@ -95,7 +95,7 @@ static span span_of(const grid *g, const gpu_light *light)
     if (light->inverse_range2 <= 0)
         return s;
     const view *v = g->view;
-    const float *p = &light->position.x;
+    const float p[3] = { light->position.x, light->position.y, light->position.z };
     float x = 0, y = 0, z = 0, reach = 1 / sqrtf(light->inverse_range2);
     for (int i = 0; i < 3; i++) {
         float d = p[i] - v->eye[i];

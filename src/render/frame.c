@@ -134,7 +134,7 @@ static ag_status record_draws(ag_renderer *r, const picture *p, uint32_t first, 
     return AG_OK;
 }
 
-static ag_status record_bodies(ag_renderer *r, const picture *p, bool warm_up)
+static ag_status record_bodies(ag_renderer *r, const picture *p)
 {
     const lights *l = &r->resident.lights;
     VkPipeline pipeline;
@@ -144,7 +144,7 @@ static ag_status record_bodies(ag_renderer *r, const picture *p, bool warm_up)
     if (status)
         return status;
     vkCmdBindPipeline(r->commands.buffer, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    body_draw(r->commands.buffer, &r->body, l->bodies, warm_up ? 1 : l->count - l->bodies);
+    body_draw(r->commands.buffer, &r->body, l, &p->view);
     return AG_OK;
 }
 
@@ -173,7 +173,7 @@ static ag_status record_scene(ag_renderer *r, const picture *p, bool warm_up)
         vkCmdBindVertexBuffers(cmd, 0, 2, vertices, offsets);
     ag_status status = record_draws(r, p, 0, p->draws.opaque_count, warm_up);
     if (!status)
-        status = record_bodies(r, p, warm_up);
+        status = record_bodies(r, p);
     if (!status && p->background)
         status = record_background(r, p);
     if (!status)
