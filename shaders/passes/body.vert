@@ -22,23 +22,24 @@ mat3 frame_around(vec3 z)
     return mat3(x, cross(z, x), z);
 }
 
-vec3 point_of(gpu_light light, vec2 at)
+// `wider`: so much that a round outline of few corners has the area that it should.
+vec3 point_of(gpu_light light, vec2 at, float wider)
 {
     switch (light.kind) {
     case GPU_LIGHT_RECT:
         return light.position + (2.0 * at.x - 1.0) * light.x + (2.0 * at.y - 1.0) * light.y;
     case GPU_LIGHT_DISK: {
         float turn = 2.0 * PI * at.x;
-        return light.position + at.y * (cos(turn) * light.x + sin(turn) * light.y);
+        return light.position + wider * at.y * (cos(turn) * light.x + sin(turn) * light.y);
     }
     case GPU_LIGHT_TUBE: {
         // Half a sphere around each end; the row across the middle is stretched between.
-        vec3 p = light.radius * sphere_point(at);
+        vec3 p = wider * light.radius * sphere_point(at);
         return light.position + frame_around(light.direction) * p +
                (at.y < 0.5 ? light.x : -light.x);
     }
     }
-    return light.position + light.radius * sphere_point(at);
+    return light.position + wider * light.radius * sphere_point(at);
 }
 
 // Flat lights are seen from their front, and nothing of hidden ones.
@@ -57,7 +58,8 @@ void main()
     int columns = GPU_BODY_COLUMNS >> level, rows = GPU_BODY_ROWS >> level | 1;
     int i = gl_VertexIndex & ((1 << GPU_BODY_LEVEL_SHIFT) - 1);
     vec2 cell = vec2(i % (columns + 1), i / (columns + 1));
-    vec3 p = point_of(light, cell / vec2(columns, rows));
+    float corner = 2.0 * PI / float(columns);
+    vec3 p = point_of(light, cell / vec2(columns, rows), sqrt(corner / sin(corner)));
     out_radiance = light.radiance;
     gl_Position = is_seen(light) ? frame.clip_from_world * vec4(p, 1.0) : vec4(0.0, 0.0, -1.0, 1.0);
 }

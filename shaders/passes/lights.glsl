@@ -16,7 +16,6 @@ layout(constant_id = 11) const uint METHOD = GPU_METHOD_EXACT;
 
 #ifndef AREA_EXACT // until they land
 const vec4 identity = vec4(1.0, 0.0, 0.0, 1.0);
-#define light_quad_ggx(a, b, c, d, v, ax, ay) light_ltc_quad(a, b, c, d, v, lit.ltc, lit.dfg)
 #define light_disk_ggx(c, x, y, v, ax, ay) light_ltc_disk(c, x, y, v, lit.ltc, lit.dfg)
 #define light_tube_ggx(c, a, r, v, ax, ay) light_ltc_tube(c, a, r, v, lit.ltc, lit.dfg)
 const vec3 up = vec3(0.0, 0.0, 1.0);
@@ -34,7 +33,7 @@ struct lit_surface {
 
 bool uses_ltc()
 {
-    return METHOD == GPU_METHOD_LTC || (GROUPS & ~3u) != 0u;
+    return METHOD == GPU_METHOD_LTC || (GROUPS & ~7u) != 0u;
 }
 
 lit_surface lit_surface_from(surface s, vec3 n, vec3 wo, vec2 dfg)

@@ -73,7 +73,7 @@ void body_draw(VkCommandBuffer cmd, const gpu_buffer *indices, const lights *l, 
     vkCmdSetCullMode(cmd, VK_CULL_MODE_NONE);
     for (uint32_t i = l->bodies; i < l->count; i++) {
         float size = size_of(v, &all[i]);
-        uint32_t level = size > 48 ? 0 : size > 12 ? 1 : 2;
+        uint32_t level = size > 24 ? 0 : size > 6 ? 1 : 2;
         if (size > 0)
             vkCmdDrawIndexed(cmd, index_count(level), 1, first_index(level),
                              (int32_t)(level << GPU_BODY_LEVEL_SHIFT), i);
