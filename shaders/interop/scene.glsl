@@ -134,12 +134,20 @@ STRUCT_BEGIN(gpu_material)
     float normal_scale;
     float occlusion_strength;
     float alpha_cutoff;
+    float anisotropy;
+    float2 anisotropy_direction; // cosine and sine of its rotation from the tangent
+    float diffuse_roughness;
+    float shininess;
+    float reflectiveness;
+    float3 conductor_n;
+    float3 conductor_k;
+    float3 f82_tint;
     uint uv1; // bit t: texture t uses uv set 1
     float3 uv_u[GPU_TEXTURE_COUNT]; // u' = dot(uv_u, (u, v, 1))
     float3 uv_v[GPU_TEXTURE_COUNT];
 STRUCT_END(gpu_material)
 
-// How the fragment shader of surfaces is specialised: constants 0 to 11.
+// How the fragment shader of surfaces is specialised: constants 0 to 12.
 STRUCT_BEGIN(gpu_surface_constants)
     uint textures;    // bit t: texture t is sampled
     uint general_uv;  // some texture has a transform or uses uv set 1
@@ -153,6 +161,7 @@ STRUCT_BEGIN(gpu_surface_constants)
     uint clustered;
     uint ambient;
     uint method;      // GPU_METHOD_, of lights of extent
+    uint model;       // SURFACE_ of surface.glsl
 STRUCT_END(gpu_surface_constants)
 
 #define GPU_ALPHA_OPAQUE 0u
@@ -176,9 +185,9 @@ STRUCT_END(gpu_resolve)
 _Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 2 * 9 * 12 + 20 + 8 + 16 + 8, "gpu_frame");
 _Static_assert(sizeof(gpu_light) == 5 * 16 + 12, "gpu_light");
 _Static_assert(sizeof(gpu_instance) == 48, "gpu_instance");
-_Static_assert(sizeof(gpu_material) == 16 + 16 + 16 + 24 + 2 * GPU_TEXTURE_COUNT * 12,
+_Static_assert(sizeof(gpu_material) == 16 + 16 + 16 + 20 + 60 + 4 + 2 * GPU_TEXTURE_COUNT * 12,
                "gpu_material");
-_Static_assert(sizeof(gpu_surface_constants) == 48, "gpu_surface_constants");
+_Static_assert(sizeof(gpu_surface_constants) == 52, "gpu_surface_constants");
 _Static_assert(sizeof(gpu_resolve) == 20, "gpu_resolve");
 #endif
 

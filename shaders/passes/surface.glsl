@@ -13,6 +13,7 @@ layout(constant_id = 2) const uint ALPHA_MODE = 0u;
 layout(constant_id = 3) const uint UNLIT = 0u;
 layout(constant_id = 4) const uint ENVIRONMENT = 1u;
 layout(constant_id = 6) const uint TONE = 0u;
+layout(constant_id = 12) const uint MODEL = 0u;
 
 layout(scalar, set = 1, binding = 0) uniform Material { gpu_material material; };
 layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
@@ -81,7 +82,23 @@ vec3 shading_normal()
     return here.front ? n : -n;
 }
 
-surface_material material_here(vec3 base_color)
+const bool ANISOTROPIC = (MODEL & SURFACE_DISTRIBUTION) == SURFACE_ANISOTROPIC;
+
+// The rougher direction of an anisotropic surface, across n.
+vec3 tangent_here(vec3 n)
+{
+    if (!ANISOTROPIC)
+        return vec3(0.0);
+    vec3 bitangent = here.tangent.w * cross(here.normal, here.tangent.xyz);
+    vec3 t = material.anisotropy_direction.x * here.tangent.xyz +
+             material.anisotropy_direction.y * bitangent;
+    t -= dot(t, n) * n;
+    if (dot(t, t) < 1e-12)
+        t = cross(n, abs(n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+    return normalize(t);
+}
+
+surface_material material_here(vec3 base_color, vec3 n)
 {
     vec4 white = vec4(1.0);
     vec4 metallic_roughness =
@@ -94,7 +111,15 @@ surface_material material_here(vec3 base_color)
     m.specular_color = material.specular_color *
                        SAMPLE(specular_color_texture, GPU_TEXTURE_SPECULAR_COLOR, white).rgb;
     m.specular = material.specular * SAMPLE(specular_texture, GPU_TEXTURE_SPECULAR, white).a;
-    m.model = 0u;
+    m.model = MODEL;
+    m.diffuse_roughness = material.diffuse_roughness;
+    m.shininess = material.shininess;
+    m.anisotropy = material.anisotropy;
+    m.tangent = tangent_here(n);
+    m.conductor_n = material.conductor_n;
+    m.conductor_k = material.conductor_k;
+    m.f82_tint = material.f82_tint;
+    m.reflectiveness = material.reflectiveness;
     return m;
 }
 
@@ -106,7 +131,10 @@ float occlusion_here()
 
 vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness, float ao)
 {
-    vec3 r = reflect(-wo, n);
+    vec3 bent = n;
+    if (ANISOTROPIC)
+        bent = environment_bent_normal(n, wo, s.tangent, material.anisotropy, roughness);
+    vec3 r = reflect(-wo, bent);
     float NoV = surface_cosine(n, wo);
     float open = ao;
     if (has(GPU_TEXTURE_OCCLUSION))
@@ -129,13 +157,16 @@ vec3 radiance_to_eye(vec3 base_color)
 {
     vec3 n = shading_normal();
     vec3 wo = frame.orthographic != 0.0 ? -frame.ray_center : normalize(frame.eye - here.position);
-    surface_material m = material_here(base_color);
+    surface_material m = material_here(base_color, n);
     float NoV = surface_cosine(n, wo);
-    vec2 dfg = texture(dfg_table, vec2(NoV, m.roughness)).rg;
+    vec2 dfg = ANISOTROPIC ? surface_sky(m, n, wo)
+                           : texture(dfg_table, vec2(NoV, m.roughness)).rg;
     surface s = surface_from_metallic_roughness(m, NoV, dfg);
     // Only lights without extent sparkle.  Image light is filtered already, and wider lobes
     // would bring light to silhouettes that is not there: 2.5 times the error on spheres.
-    s.a2 = specular_aa_alpha2(s.a2, frame.footprint * dFdx(n), frame.footprint * dFdy(n));
+    vec3 turn_x = frame.footprint * dFdx(n), turn_y = frame.footprint * dFdy(n);
+    s.a2 = specular_aa_alpha2(s.a2, turn_x, turn_y);
+    s.a2_across = specular_aa_alpha2(s.a2_across, turn_x, turn_y);
 
     vec3 light = material.emissive *
                  SAMPLE(emissive_texture, GPU_TEXTURE_EMISSIVE, vec4(1.0)).rgb;

@@ -62,6 +62,20 @@ static inline vec3 environment_dominant(vec3 n, vec3 r, real alpha)
     return normalize(mix(n, r, (1.0f - alpha) / (1.0f + bend)));
 }
 
+// A lobe drawn out along `tangent` is looked up about the mirror direction of a normal bent
+// towards the eye in the plane of that direction.  The mix is that of Filament's document,
+// "Anisotropy" of image based lights, with its exponent of 4.
+static inline vec3 environment_bent_normal(vec3 n, vec3 wo, vec3 tangent, real anisotropy,
+                                           real roughness)
+{
+    vec3 across = cross(n, tangent);
+    vec3 bent = cross(cross(across, wo), across);
+    real straight = 1.0f - anisotropy * (1.0f - roughness);
+    straight = straight * straight;
+    bent = bent / sqrt(max(dot(bent, bent), 1e-12f));
+    return normalize(mix(bent, n, straight * straight));
+}
+
 // How much of the reflected image light reaches a surface whose share `ao` of the sky is
 // open.  Lagarde & de Rousiers 2014, listing 26.
 static inline real environment_specular_occlusion(real NoV, real ao, real alpha)

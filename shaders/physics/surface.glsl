@@ -47,6 +47,7 @@ static const real SURFACE_MIN_NOV = 0.0001f;
 #define SURFACE_LAYERED_AS_GLTF   0x100u
 #define SURFACE_BLENDED           0x180u
 #define SURFACE_SINGLE_BOUNCE     0x200u
+#define SURFACE_MODELS            0x400
 
 // What the material says; all factors with their textures.  The fields after `model` are read
 // only where it asks for them.

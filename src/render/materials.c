@@ -2,7 +2,7 @@
 #include "render/materials.h"
 
 #include "base/log.h"
-#include "physics/fresnel.glsl"
+#include "physics/surface.glsl"
 
 #include <math.h>
 #include <stdlib.h>
@@ -44,20 +44,56 @@ static uint32_t alpha_mode(ag_alpha_mode mode)
     return GPU_ALPHA_OPAQUE;
 }
 
+static uint32_t fresnel_of(const ag_material_desc *d)
+{
+    if (d->metallic == 0)
+        return SURFACE_SCHLICK;
+    if (d->fresnel == AG_FRESNEL_CONDUCTOR)
+        return SURFACE_CONDUCTOR;
+    bool untinted = d->f82_tint[0] == 1 && d->f82_tint[1] == 1 && d->f82_tint[2] == 1;
+    return d->fresnel == AG_FRESNEL_F82 && !untinted ? SURFACE_F82 : SURFACE_SCHLICK;
+}
+
+// Choices that change nothing are not made: variants are dear.
+static uint32_t model_of(const ag_material_desc *d)
+{
+    static const uint32_t diffuse[] = { SURFACE_LAMBERT, SURFACE_OREN_NAYAR, SURFACE_EON };
+    static const uint32_t layering[] = { SURFACE_LAYERED_BY_ALBEDO, SURFACE_LAYERED_BY_F,
+                                         SURFACE_LAYERED_AS_GLTF, SURFACE_BLENDED };
+    uint32_t model = layering[d->layering];
+    if (d->diffuse_roughness > 0)
+        model |= diffuse[d->diffuse];
+    if (d->distribution == AG_DISTRIBUTION_BLINN)
+        return (model & ~SURFACE_LAYERING) | SURFACE_BLINN |
+               (d->layering == AG_LAYERING_BLEND ? SURFACE_BLENDED : SURFACE_LAYERED_BY_ALBEDO);
+    model |= d->anisotropy > 0 ? SURFACE_ANISOTROPIC : SURFACE_GGX;
+    model |= d->shadowing == AG_SHADOWING_SCHLICK ? SURFACE_SCHLICK_GGX : SURFACE_SMITH;
+    model |= d->single_bounce ? SURFACE_SINGLE_BOUNCE : 0;
+    return model | fresnel_of(d);
+}
+
 void materials_classify(const ag_scene *scene, gpu_surface_constants *constants)
 {
-    gpu_surface_constants unions[3][2][2] = { 0 }; // [alpha mode][unlit][has textures]
-    for (int pass = 0; pass < 2; pass++)           // first gather, then hand out
+    uint32_t first[3][2][2][SURFACE_MODELS] = { 0 }; // of its class, from 1; [alpha mode][unlit]
+                                                     // [has textures][model]
+    for (int pass = 0; pass < 2; pass++)             // first gather, then hand out
         for (size_t i = 0; i < scene->materials_count; i++) {
             const ag_material_desc *material = &scene->materials[i];
             uint32_t bits = textures_of(material), mode = alpha_mode(material->alpha_mode);
             if (material->unlit)
                 bits &= 1u << GPU_TEXTURE_BASE_COLOR;
-            gpu_surface_constants *all = &unions[mode][material->unlit][bits != 0];
+            uint32_t model = material->unlit ? 0 : model_of(material);
+            uint32_t *head = &first[mode][material->unlit][bits != 0][model];
+            if (!*head) {
+                *head = (uint32_t)i + 1;
+                constants[i] = (gpu_surface_constants) { 0 };
+            }
+            gpu_surface_constants *all = &constants[*head - 1];
             all->textures |= bits;
             all->general_uv |= needs_general_uv(material);
             all->alpha_mode = mode;
             all->unlit = material->unlit;
+            all->model = model;
             if (pass == 1)
                 constants[i] = *all;
         }
@@ -87,6 +123,15 @@ static gpu_material pack(const ag_material_desc *d)
         .normal_scale = d->normal_scale,
         .occlusion_strength = d->occlusion_strength,
         .alpha_cutoff = d->alpha_cutoff,
+        .anisotropy = d->anisotropy,
+        .anisotropy_direction = { cosf(d->anisotropy_rotation_rad),
+                                  sinf(d->anisotropy_rotation_rad) },
+        .diffuse_roughness = d->diffuse_roughness,
+        .shininess = d->shininess,
+        .reflectiveness = d->reflectiveness,
+        .conductor_n = { d->conductor_n[0], d->conductor_n[1], d->conductor_n[2] },
+        .conductor_k = { d->conductor_k[0], d->conductor_k[1], d->conductor_k[2] },
+        .f82_tint = { d->f82_tint[0], d->f82_tint[1], d->f82_tint[2] },
     };
     for (uint32_t slot = 0; slot < GPU_TEXTURE_COUNT; slot++)
         set_transform(textures_use(d, slot), slot, &m);

@@ -108,6 +108,7 @@ enum {
     GLTF_WARNED_SKIN = 256,
     GLTF_WARNED_EXTRAS = 512,
     GLTF_WARNED_SPOT = 1024,
+    GLTF_WARNED_ANISOTROPY = 2048,
 };
 
 typedef struct gltf_file {

@@ -1,4 +1,5 @@
-// Materials (spec 3.9) with KHR_materials_unlit, _emissive_strength, _ior and _specular,
+// Materials (spec 3.9) with KHR_materials_unlit, _emissive_strength, _ior, _specular and
+// _anisotropy,
 // and uses of textures with KHR_texture_transform.
 #include "scene/gltf.h"
 
@@ -148,6 +149,20 @@ static ag_status read_dielectric(const gltf_at *at, ag_material_desc *desc)
     return status;
 }
 
+static ag_status read_anisotropy(const gltf_at *at, ag_material_desc *desc)
+{
+    gltf_at anisotropy;
+    ag_status status = gltf_extension(at, "KHR_materials_anisotropy", &anisotropy);
+    if (!status)
+        status = gltf_float_in(&anisotropy, "anisotropyStrength", 0.0f, 1.0f, &desc->anisotropy);
+    if (!status)
+        status = gltf_float(&anisotropy, "anisotropyRotation", &desc->anisotropy_rotation_rad);
+    if (!status && gltf_member(&anisotropy, "anisotropyTexture").json)
+        gltf_warn_once(&anisotropy, GLTF_WARNED_ANISOTROPY,
+                       "anisotropyTexture is not supported; the factors alone are used");
+    return status;
+}
+
 static ag_status read_material(const gltf_at *at, ag_material_desc *desc)
 {
     gltf_at unlit;
@@ -161,6 +176,8 @@ static ag_status read_material(const gltf_at *at, ag_material_desc *desc)
         status = read_alpha(at, desc);
     if (!status)
         status = read_dielectric(at, desc);
+    if (!status)
+        status = read_anisotropy(at, desc);
     if (!status)
         status = gltf_extension(at, "KHR_materials_unlit", &unlit);
     if (!status)

@@ -74,8 +74,9 @@ static ag_status add_to_scene(const gltf_at *primitive, const gltf_geometry *geo
         .skip_tangents = true,
     };
     if (material != GLTF_NONE) {
-        const ag_texture_use *normal = &file->materials[material].desc.normal_texture;
-        desc.skip_tangents = normal->texture.id == 0;
+        const ag_material_desc *drawn = &file->materials[material].desc;
+        const ag_texture_use *normal = &drawn->normal_texture;
+        desc.skip_tangents = normal->texture.id == 0 && drawn->anisotropy == 0;
         desc.tangent_uv_set = normal->uv_set;
     }
     return ag_scene_add_mesh(file->scene, &desc, mesh);

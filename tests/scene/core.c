@@ -139,20 +139,56 @@ static void test_bad_materials(void **state)
     (void)state;
     sentences s = { 0 };
     ag_scene *scene = make_scene(&s);
-    ag_material_desc d[4];
-    for (int i = 0; i < 4; i++)
+    enum { BAD = 13 };
+    ag_material_desc d[BAD];
+    for (int i = 0; i < BAD; i++)
         d[i] = ag_material_default();
     d[0].roughness = NAN;
     d[1].emissive_texture.texture.id = 1; // none there
     d[2].occlusion_texture.uv_set = 2;
     d[3].alpha_mode = (ag_alpha_mode)3;
-    for (int i = 0; i < 4; i++) {
+    d[4].diffuse = (ag_diffuse)3;
+    d[5].distribution = (ag_distribution)-1;
+    d[6].shadowing = (ag_shadowing)2;
+    d[7].fresnel = (ag_fresnel)3;
+    d[8].layering = (ag_layering)4;
+    d[9].fresnel = AG_FRESNEL_CONDUCTOR;
+    d[9].conductor_n[2] = 0.0f;
+    d[10].f82_tint[1] = INFINITY;
+    d[11].conductor_k[0] = NAN;
+    d[12].anisotropy = NAN;
+    for (int i = 0; i < BAD; i++) {
         ag_material material = { 7 };
         assert_int_equal(ag_scene_add_material(scene, &d[i], &material), AG_ERROR_ARGUMENT);
         assert_int_equal(material.id, 0);
     }
     assert_int_equal(scene->materials_count, 1);
-    assert_int_equal(s.count, 4);
+    assert_int_equal(s.count, BAD);
+    ag_scene_destroy(scene);
+}
+
+static void test_choices_are_clamped(void **state)
+{
+    (void)state;
+    sentences s = { 0 };
+    ag_scene *scene = make_scene(&s);
+    ag_material_desc d = ag_material_default();
+    d.diffuse = AG_DIFFUSE_EON;
+    d.diffuse_roughness = 1.5f;
+    d.anisotropy = 2.0f;
+    d.reflectiveness = -1.0f;
+    d.shininess = -3.0f;
+    d.f82_tint[2] = 7.0f;
+    d.conductor_k[1] = -1.0f;
+    ag_material material;
+    assert_int_equal(ag_scene_add_material(scene, &d, &material), AG_OK);
+    const ag_material_desc *made = &scene->materials[material.id];
+    assert_true(made->diffuse_roughness == 1.0f && made->anisotropy == 1.0f);
+    assert_true(made->reflectiveness == 0.0f && made->shininess == 0.0f);
+    assert_true(made->f82_tint[2] == 1.0f && made->conductor_k[1] == 0.0f);
+    d.diffuse = AG_DIFFUSE_OREN_NAYAR; // radians here
+    assert_int_equal(ag_scene_add_material(scene, &d, &material), AG_OK);
+    assert_true(scene->materials[material.id].diffuse_roughness == 1.5f);
     ag_scene_destroy(scene);
 }
 
@@ -367,6 +403,7 @@ int main(void)
         cmocka_unit_test(test_material_defaults_are_gltfs),
         cmocka_unit_test(test_materials_are_clamped),
         cmocka_unit_test(test_bad_materials),
+        cmocka_unit_test(test_choices_are_clamped),
         cmocka_unit_test(test_lights_get_defaults),
         cmocka_unit_test(test_bad_lights),
         cmocka_unit_test(test_harmonics_from_radiance),

@@ -148,6 +148,24 @@ static void extensions(void **state)
     kit_near(load(k, "'extensions':{'KHR_materials_ior':{'ior':0}}", 0)->ior, 0, 0);
 }
 
+static void anisotropy(void **state)
+{
+    kit *k = *state;
+    const ag_material_desc *m =
+        load(k,
+             "'extensions':{'KHR_materials_anisotropy':{'anisotropyStrength':0.5,"
+             "'anisotropyRotation':1.25}}",
+             0);
+    kit_near(m->anisotropy, 0.5, 0);
+    kit_near(m->anisotropy_rotation_rad, 1.25, 0);
+    m = load(k,
+             "'extensions':{'KHR_materials_anisotropy':{'anisotropyStrength':3,"
+             "'anisotropyTexture':{'index':0}}}",
+             2);
+    kit_near(m->anisotropy, 1, 0);
+    assert_non_null(strstr(k->said, "anisotropyTexture is not supported"));
+}
+
 static void texture_transform(void **state)
 {
     kit *k = *state;
@@ -321,6 +339,7 @@ int main(void)
         cmocka_unit_test(defaults),
         cmocka_unit_test(core),
         cmocka_unit_test(extensions),
+        cmocka_unit_test(anisotropy),
         cmocka_unit_test(texture_transform),
         cmocka_unit_test(third_uv_set),
         cmocka_unit_test(out_of_range),
