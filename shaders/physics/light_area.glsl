@@ -16,11 +16,12 @@
 #include "physics/fresnel.glsl"
 #include "physics/lang.glsl"
 
-#define AREA_NODES 21
+#define AREA_PIECES 20
+#define AREA_NODES  21
 
 static const real AREA_TINY = 1e-30f;
 static const real AREA_RING = 0.81649658f; // sqrt(2 / 3)
-static const real AREA_GAUSS = 0.11270167f; // (1 - sqrt(3 / 5)) / 2
+static const real AREA_GAUSS = 0.38729833f; // sqrt(3 / 5) / 2
 
 // The lobe seen from v; `axis` = the stretched v, unit: half vectors are stretch * s, and the
 // visible ones have the density of s.axis.
@@ -42,10 +43,7 @@ STRUCT(light_arc) {
 // Five arcs, each in four pieces.
 STRUCT(light_outline) {
     light_lobe lobe;
-    light_arc piece[20];
-    vec3 mean; // of the unit vectors along it, times its length
-    vec3 turn; // twice its vector area
-    real way; // its length
+    light_arc piece[AREA_PIECES];
     bool closed; // by a fifth along the horizon,
     vec3 out_at; // from here
     vec3 in_at;  // to here
@@ -164,42 +162,21 @@ static inline light_outline light_outline_start(light_lobe lobe)
     none.p0 = none.p1 = none.p2 = lobe.axis;
     light_outline o;
     o.lobe = lobe;
-    for (int i = 0; i < 20; i++)
+    for (int i = 0; i < AREA_PIECES; i++)
         o.piece[i] = none;
-    o.mean = vec3(0.0f, 0.0f, 0.0f);
-    o.turn = vec3(0.0f, 0.0f, 0.0f);
-    o.way = 0.0f;
     o.closed = false;
     o.out_at = vec3(1.0f, 0.0f, 0.0f);
     o.in_at = vec3(1.0f, 0.0f, 0.0f);
     return o;
 }
 
-static inline light_outline light_outline_point(light_outline o, light_rim rim, real weight)
-{
-    vec3 turn = cross(rim.s, rim.ds);
-    real n = weight * sqrt(dot(turn, turn));
-    o.turn = o.turn + weight * turn;
-    o.mean = o.mean + n * rim.s;
-    o.way += n;
-    return o;
-}
-
-static inline light_outline light_outline_piece(light_outline o, int i, light_arc arc)
-{
-    light_arc a = light_arc_even(arc);
-    o.piece[i] = a;
-    o = light_outline_point(o, light_arc_at(a, AREA_GAUSS), 5.0f / 18.0f);
-    o = light_outline_point(o, light_arc_at(a, 0.5f), 4.0f / 9.0f);
-    return light_outline_point(o, light_arc_at(a, 1.0f - AREA_GAUSS), 5.0f / 18.0f);
-}
-
 // Adds a half arc as two pieces.
 static inline light_outline light_outline_half(light_outline o, int i, light_arc half_arc)
 {
     light_arc a = light_arc_shouldered(half_arc);
-    o = light_outline_piece(o, i, light_arc_first(a));
-    return light_outline_piece(o, i + 1, light_arc_second(a));
+    o.piece[i] = light_arc_first(a);
+    o.piece[i + 1] = light_arc_second(a);
+    return o;
 }
 
 // Adds the `i`th arc.
@@ -253,43 +230,50 @@ static inline real light_sector(light_lobe lobe, vec3 centre, light_rim rim)
 static inline vec3 light_piece(light_lobe lobe, vec3 centre, light_arc arc)
 {
     light_rim middle = light_arc_at(arc, 0.5f);
-    real ends = light_sector(lobe, centre, light_arc_at(arc, AREA_GAUSS)) +
-                light_sector(lobe, centre, light_arc_at(arc, 1.0f - AREA_GAUSS));
+    real ends = light_sector(lobe, centre, light_arc_at(arc, 0.5f - AREA_GAUSS)) +
+                light_sector(lobe, centre, light_arc_at(arc, 0.5f + AREA_GAUSS));
     real area = (5.0f * ends + 8.0f * light_sector(lobe, centre, middle)) / 18.0f;
     vec3 q = AREA_RING * (middle.s - dot(middle.s, centre) * centre);
     vec2 node = light_lobe_node(lobe, q + sqrt(max(1.0f - dot(q, q), 0.0f)) * centre);
     return vec3(area, node[0], node[1]);
 }
 
-static inline light_nodes light_nodes_arc(light_nodes nodes, light_outline o, int i)
+// A point within, from the vector area of the outline and its own mean (section 4).
+static inline vec3 light_outline_centre(light_outline o)
 {
-    vec3 a = light_piece(o.lobe, nodes.centre, o.piece[4 * i]);
-    vec3 b = light_piece(o.lobe, nodes.centre, o.piece[4 * i + 1]);
-    vec3 c = light_piece(o.lobe, nodes.centre, o.piece[4 * i + 2]);
-    vec3 d = light_piece(o.lobe, nodes.centre, o.piece[4 * i + 3]);
-    nodes.node[4 * i] = vec2(a[0] * a[1], a[2]);
-    nodes.node[4 * i + 1] = vec2(b[0] * b[1], b[2]);
-    nodes.node[4 * i + 2] = vec2(c[0] * c[1], c[2]);
-    nodes.node[4 * i + 3] = vec2(d[0] * d[1], d[2]);
-    nodes.area += a[0] + b[0] + c[0] + d[0];
-    return nodes;
+    int n = o.closed ? AREA_PIECES : AREA_PIECES - 4;
+    vec3 turn = vec3(0.0f, 0.0f, 0.0f);
+    vec3 mean = vec3(0.0f, 0.0f, 0.0f);
+    real way = 0.0f;
+    for (int i = 0; i < n; i++) {
+        light_arc a = light_arc_even(o.piece[i]);
+        for (int k = -1; k <= 1; k++) {
+            light_rim rim = light_arc_at(a, 0.5f + to_real(k) * AREA_GAUSS);
+            vec3 across = (k == 0 ? 8.0f : 5.0f) / 18.0f * cross(rim.s, rim.ds);
+            real step = sqrt(dot(across, across));
+            turn = turn + across;
+            mean = mean + step * rim.s;
+            way += step;
+        }
+    }
+    return light_unit(mean / max(way, AREA_TINY) + 0.5f * sqrt(dot(turn, turn)) * turn);
 }
 
 static inline light_nodes light_nodes_from_outline(light_outline o)
 {
+    int n = o.closed ? AREA_PIECES : AREA_PIECES - 4;
     light_nodes nodes;
-    vec3 c = o.mean / max(o.way, AREA_TINY) + 0.5f * sqrt(dot(o.turn, o.turn)) * o.turn;
-    nodes.centre = light_unit(c);
+    nodes.centre = light_outline_centre(o);
     nodes.area = 0.0f;
-    nodes = light_nodes_arc(nodes, o, 0);
-    nodes = light_nodes_arc(nodes, o, 1);
-    nodes = light_nodes_arc(nodes, o, 2);
-    nodes = light_nodes_arc(nodes, o, 3);
-    nodes.node[16] = nodes.node[17] = nodes.node[18] = nodes.node[19] = vec2(0.0f, 0.0f);
-    if (o.closed)
-        nodes = light_nodes_arc(nodes, o, 4);
+    for (int i = 0; i < AREA_PIECES; i++) {
+        vec3 piece = vec3(0.0f, 0.0f, 1.0f);
+        if (i < n)
+            piece = light_piece(o.lobe, nodes.centre, light_arc_even(o.piece[i]));
+        nodes.node[i] = vec2(piece[0] * piece[1], piece[2]);
+        nodes.area += piece[0];
+    }
     vec2 middle = light_lobe_node(o.lobe, nodes.centre);
-    nodes.node[20] = vec2(0.25f / 0.75f * nodes.area * middle[0], middle[1]);
+    nodes.node[AREA_PIECES] = vec2(0.25f / 0.75f * nodes.area * middle[0], middle[1]);
     nodes.scale = nodes.area > 0.0f ? 0.75f * 2.0f * INV_PI / (1.0f + o.lobe.axis[2]) : 0.0f;
     return nodes;
 }
