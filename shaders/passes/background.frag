@@ -20,13 +20,27 @@ vec3 environment_at(vec3 d)
     return frame.environment_intensity * textureLod(environment_image, uv, 0.0).rgb;
 }
 
-// Suns hide what is behind them; their edges are a pixel wide.
+vec3 direction_at(vec2 clip)
+{
+    vec3 d = frame.ray_center;
+    if (frame.orthographic == 0.0)
+        d += clip.x * frame.ray_x + clip.y * frame.ray_y;
+    return normalize(d);
+}
+
+// Suns hide what is behind them; their edges are a pixel wide.  Not by fwidth: lavapipe clips
+// the pass into two triangles, and derivatives are wrong along their seam.
 vec3 behind_suns(vec3 d, vec3 color)
 {
+    vec2 pixel = (in_clip + 1.0) / gl_FragCoord.xy;
+    vec3 dx = direction_at(in_clip + vec2(pixel.x, 0.0)),
+         dy = direction_at(in_clip + vec2(0.0, pixel.y));
     for (uint i = frame.light_ends[GPU_LIGHTS_PUNCTUAL]; i < frame.first_body; i++) {
         gpu_light sun = lights[i];
-        vec3 apart = cross(d, sun.direction); // as long as the sine of the angle
-        float edge = (sun.radius - length(apart)) / max(fwidth(length(apart)), 1e-7) + 0.5;
+        float apart = length(cross(d, sun.direction)); // the sine of the angle
+        float width = abs(length(cross(dx, sun.direction)) - apart) +
+                      abs(length(cross(dy, sun.direction)) - apart);
+        float edge = (sun.radius - apart) / max(width, 1e-7) + 0.5;
         bool towards = dot(d, sun.direction) < 0.0 && sun.radiance != vec3(0.0);
         color = mix(color, sun.radiance, towards ? clamp(edge, 0.0, 1.0) : 0.0);
     }
@@ -35,10 +49,7 @@ vec3 behind_suns(vec3 d, vec3 color)
 
 void main()
 {
-    vec3 d = frame.ray_center;
-    if (frame.orthographic == 0.0)
-        d += in_clip.x * frame.ray_x + in_clip.y * frame.ray_y;
-    d = normalize(d);
+    vec3 d = direction_at(in_clip);
     vec3 color = ENVIRONMENT != 0u ? environment_at(d) : vec3(0.0);
     if ((GROUPS >> GPU_LIGHTS_CAP & 1u) != 0u)
         color = behind_suns(d, color);

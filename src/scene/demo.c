@@ -24,6 +24,16 @@ static const struct demo {
       demo_specular },
     { "sphere-lights", "the text on sphere lights: the same under lamps with a size",
       demo_sphere_lights },
+    { "sun", "the text on distant sphere lights: balls under a sun of the real one's size",
+      demo_sun },
+    { "sun-large", "the same under a sun of 21 times that radius", demo_sun_large },
+    { "ambient-oren-nayar", "the text on ambient lighting: Oren-Nayar and constant light",
+      demo_ambient_oren_nayar },
+    { "ambient-hemispheric", "the same text: Lambert and light from sky and ground",
+      demo_ambient_hemispheric },
+    { "ambient-sh-blinn", "the same text: Blinn, four lights and spherical harmonics",
+      demo_ambient_sh_blinn },
+    { "metals", "every metal by name, in the order of ag_metal", demo_metals },
 };
 enum { DEMOS = sizeof demos / sizeof *demos };
 
@@ -36,6 +46,12 @@ static const struct look {
     { "grid", AG_TONEMAP_REINHARD, AG_TRANSFER_GAMMA_22 },
     { "specular", AG_TONEMAP_ACES_NARKOWICZ, AG_TRANSFER_SRGB },
     { "sphere-lights", AG_TONEMAP_ACES_NARKOWICZ, AG_TRANSFER_SRGB },
+    { "sun", AG_TONEMAP_ACES_NARKOWICZ, AG_TRANSFER_SRGB },
+    { "sun-large", AG_TONEMAP_ACES_NARKOWICZ, AG_TRANSFER_SRGB },
+    { "metals", AG_TONEMAP_ACES_NARKOWICZ, AG_TRANSFER_SRGB },
+    { "ambient-oren-nayar", AG_TONEMAP_NONE, AG_TRANSFER_SRGB },
+    { "ambient-hemispheric", AG_TONEMAP_NONE, AG_TRANSFER_SRGB },
+    { "ambient-sh-blinn", AG_TONEMAP_NONE, AG_TRANSFER_SRGB },
 };
 enum { LOOKS = sizeof looks / sizeof *looks };
 

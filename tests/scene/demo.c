@@ -1,6 +1,7 @@
 // The built-in scenes: each loads, is sound, and is seen by its camera.
 #include "helpers.h"
 
+#include <argand/metal.h>
 #include <argand/renderer.h>
 
 #include <math.h>
@@ -59,7 +60,7 @@ static void test_every_demo_is_sound(void **state)
             ag_scene_destroy(scene);
         }
     }
-    assert_int_equal(count, 9);
+    assert_int_equal(count, 15);
     assert_false(ag_scene_demo(count, &name, &about));
 }
 
@@ -198,6 +199,75 @@ static void test_sphere_lights(void **state)
     ag_scene_destroy(scene);
 }
 
+static void test_sun(void **state)
+{
+    (void)state;
+    ag_scene *small = load("sun"), *large = load("sun-large");
+    ag_light_desc light;
+    assert_true(ag_scene_light(small, 0, &light) && light.kind == AG_LIGHT_SUN);
+    assert_near(sin((double)light.angular_radius_rad), 0.00465, 1e-8); // the text's ratio
+    assert_true(ag_scene_light(large, 0, &light) && light.angular_radius_rad > 0.05f);
+    ag_scene_destroy(small);
+    ag_scene_destroy(large);
+}
+
+static const ag_material_desc *only_material(const ag_scene *scene)
+{
+    uint32_t material = scene->instances[0].material;
+    for (size_t i = 1; i < scene->instances_count; i++)
+        assert_int_equal(scene->instances[i].material, material);
+    return &scene->materials[material];
+}
+
+// The light of each of the text's three cases, in its order.
+static void assert_lights(const ag_scene *scene, uint32_t directional, ag_light_kind ambient)
+{
+    assert_int_equal(scene->lights_count, directional + 1);
+    for (uint32_t i = 0; i < directional; i++)
+        assert_int_equal(scene->lights[i].kind, AG_LIGHT_DIRECTIONAL);
+    assert_int_equal(scene->lights[directional].kind, ambient);
+}
+
+static void test_ambient(void **state)
+{
+    (void)state;
+    ag_scene *scene = load("ambient-oren-nayar");
+    assert_lights(scene, 1, AG_LIGHT_AMBIENT);
+    assert_int_equal(only_material(scene)->diffuse, AG_DIFFUSE_OREN_NAYAR);
+    assert_true(only_material(scene)->specular == 0);
+    ag_scene_destroy(scene);
+    scene = load("ambient-hemispheric");
+    assert_lights(scene, 1, AG_LIGHT_HEMISPHERIC);
+    assert_int_equal(only_material(scene)->diffuse, AG_DIFFUSE_LAMBERT);
+    assert_true(scene->lights[1].direction[1] == 1); // its own axis, not the lamp's
+    assert_true(scene->lights[0].direction[1] != -1);
+    ag_scene_destroy(scene);
+    scene = load("ambient-sh-blinn");
+    assert_lights(scene, 4, AG_LIGHT_HARMONICS);
+    assert_int_equal(only_material(scene)->distribution, AG_DISTRIBUTION_BLINN);
+    for (size_t i = 1; i < 4; i++) // each lamp has its own colour
+        assert_true(scene->lights[i].color[0] != scene->lights[0].color[0]);
+    for (int term = 0; term < 4; term++) // y as well
+        assert_true(scene->lights[4].harmonics[term][2] != 0);
+    ag_scene_destroy(scene);
+}
+
+static void test_metals(void **state)
+{
+    (void)state;
+    ag_scene *scene = load("metals");
+    const char *name, *source;
+    size_t count = 0;
+    for (; ag_metal_info(count, &name, &source); count++) {
+        ag_material_desc metal = ag_material_metal((ag_metal)count, 0);
+        const ag_material_desc *shown = &scene->materials[scene->instances[count].material];
+        for (int c = 0; c < 3; c++)
+            assert_true(shown->base_color[c] == metal.base_color[c]);
+    }
+    assert_int_equal(scene->instances_count, count);
+    ag_scene_destroy(scene);
+}
+
 static void test_looks(void **state)
 {
     (void)state;
@@ -273,6 +343,9 @@ int main(void)
         cmocka_unit_test(test_grid),
         cmocka_unit_test(test_specular),
         cmocka_unit_test(test_sphere_lights),
+        cmocka_unit_test(test_sun),
+        cmocka_unit_test(test_ambient),
+        cmocka_unit_test(test_metals),
         cmocka_unit_test(test_looks),
         cmocka_unit_test(test_corrected_looks_conserve_energy),
         cmocka_unit_test(test_sizes),
