@@ -101,6 +101,38 @@ static void gamma_is_a_power(void **state)
     ag_scene_destroy(scene);
 }
 
+// A sun of angular radius .1: radiance within, nothing outside, a pixel between.
+static void suns_are_disks(void **state)
+{
+    enum { SIZE = 256 };
+    ag_scene *scene = stage_dark();
+    ag_light light;
+    OK(ag_scene_add_light(scene,
+                          &(ag_light_desc) { .kind = AG_LIGHT_SUN,
+                                             .direction = { 0.3f, -0.2f, 1 },
+                                             .intensity = 1,
+                                             .angular_radius_rad = 0.1f },
+                          &light));
+    const ag_camera_desc camera = { .target = { 0, 0, -1 }, .fov_y_rad = 1.5707963f };
+    const ag_render_options options = { .width = SIZE,
+                                        .height = SIZE,
+                                        .format = AG_FORMAT_RGBA32F };
+    ag_image *image = stage_render(*state, scene, &camera, &options);
+    const float pixel = 2.0f / SIZE, radiance = 1 / (3.14159265f * sinf(0.1f) * sinf(0.1f));
+    for (uint32_t y = 0; y < SIZE; y++)
+        for (uint32_t x = 0; x < SIZE; x++) {
+            float px = ((float)x + 0.5f) * pixel - 1, py = 1 - ((float)y + 0.5f) * pixel;
+            float cosine = (0.3f * -px + 0.2f * py + 1) / sqrtf(1.13f * (px * px + py * py + 1));
+            float angle = acosf(fminf(cosine, 1)), shown = stage_float(image, x, y)[0];
+            if (angle > 0.1f + 1.5f * pixel)
+                assert_close(shown, 0, 0);
+            else if (angle < 0.1f - 1.5f * pixel)
+                assert_close(shown, radiance, 0.01f * radiance);
+        }
+    ag_image_destroy(image);
+    ag_scene_destroy(scene);
+}
+
 // Half covered by the wall's edge: the pixel keeps the wall's colour, with half alpha.
 static void edges_are_straight_alpha(void **state)
 {
@@ -282,6 +314,7 @@ int main(void)
         KIT_TEST(every_pixel_is_in_its_place),
         KIT_TEST(bytes_are_tone_mapped_and_coded),
         KIT_TEST(gamma_is_a_power),
+        KIT_TEST(suns_are_disks),
         KIT_TEST(edges_are_straight_alpha),
         KIT_TEST(colours_lie_under_the_picture),
         KIT_TEST(panes_blend_back_to_front),
