@@ -4,6 +4,7 @@ set(modules base image scene bake gpu render)
 list(TRANSFORM modules PREPEND argand_ OUTPUT_VARIABLE targets)
 
 add_library(argand SHARED)
+add_library(argand::argand ALIAS argand) # as those who find it installed call it
 add_library(argand_static STATIC EXCLUDE_FROM_ALL)
 foreach(target ${targets})
     target_sources(argand PRIVATE $<TARGET_OBJECTS:${target}>)

@@ -11,7 +11,7 @@ static void show(stage *s, ag_material_desc desc)
     ag_material material = stage_material(s, desc);
     stage_show(s, stage_sphere(s, 0.6f, 64, 40), material, (vec3) { -1.35f, 0, 0 });
     stage_show_turned(s, stage_torus(s, 0.45f, 0.2f), material, (vec3) { 0, 0, 0 }, 0.5f, 0.9f);
-    stage_show_turned(s, stage_box(s, (vec3) { 0.45f, 0.45f, 0.45f }, 0.1f), material,
+    stage_show_turned(s, stage_box(s, (vec3) { 0.45f, 0.45f, 0.45f }, 0.0f), material,
                       (vec3) { 1.35f, 0, 0 }, 0.6f, 0.4f);
     stage_camera(s, 0.0f, 0.5f * pi, 0.5f);
     stage_environment(s, AG_ENVIRONMENT_NONE);

@@ -51,7 +51,7 @@ static ag_material_desc grid_material(stage *s, float metallic, float roughness)
 void demo_grid(stage *s)
 {
     enum { SIDE = 7 };
-    ag_mesh sphere = stage_sphere(s, 1.0f, 48, 32);
+    ag_mesh sphere = stage_sphere(s, 1.0f, 48, 30);
     for (int row = 0; row < SIDE; row++) {
         for (int column = 0; column < SIDE; column++) {
             float roughness = fminf(fmaxf((float)column / SIDE, 0.05f), 1.0f);
