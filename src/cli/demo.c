@@ -16,7 +16,7 @@ static exit_code run(int argc, char **argv)
     }
     const char *name, *about;
     for (size_t i = 0; ag_scene_demo(i, &name, &about); i++)
-        printf("demo:%-14s %s\n", name, about);
+        printf("demo:%-20s %s\n", name, about);
     return EXIT_DONE;
 }
 
