@@ -93,7 +93,7 @@ static void make_layout(rig *r)
         { 2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL },
     };
     must(!gpu_set_layout_create(r->device, bindings, 3, &r->set_layout), "a set layout");
-    must(!gpu_pipeline_layout_create(r->device, &r->set_layout, 1, 0, &r->layout), "a layout");
+    must(!gpu_pipeline_layout_create(r->device, &r->set_layout, 1, 0, 0, &r->layout), "a layout");
     const VkShaderModuleCreateInfo module = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
         .codeSize = sizeof code,

@@ -72,6 +72,7 @@ STRUCT_END(gpu_light)
 #define GPU_BODY_ROWS        25
 #define GPU_BODY_LEVELS      3
 #define GPU_BODY_LEVEL_SHIFT 12
+#define GPU_BODY_TRIANGLES   (GPU_BODY_COLUMNS * GPU_BODY_ROWS * 2) // at most
 
 // Under many lights the picture is cut into clusters, GPU_CLUSTERS tiles across, as many down,
 // as many slices of depth.  Each has a first and GPU_LIGHT_GROUPS ends in a list of lights,
@@ -105,6 +106,7 @@ STRUCT_BEGIN(gpu_frame)
     // A depth of z m is in slice log2(z) slice_scale + slice_offset of the clusters.
     float slice_scale;
     float slice_offset;
+    float2 pixel; // its size in clip space
 STRUCT_END(gpu_frame)
 
 // Read as a vertex's attributes.
@@ -181,14 +183,29 @@ STRUCT_BEGIN(gpu_resolve)
     float weight;      // of this picture in the sum
 STRUCT_END(gpu_resolve)
 
+// A place to shade.
+STRUCT_BEGIN(gpu_listed)
+    uint pixel; // x, and y in the upper 16 bits
+    uint instance;
+    uint first_index;  // of the triangle
+    uint first_vertex; // of the mesh
+STRUCT_END(gpu_listed)
+
+// Which part of the list a dispatch shades; pushed.
+STRUCT_BEGIN(gpu_list)
+    uint first, count;
+STRUCT_END(gpu_list)
+
 #ifndef GL_core_profile
-_Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 2 * 9 * 12 + 20 + 8 + 16 + 8, "gpu_frame");
+_Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 2 * 9 * 12 + 20 + 8 + 16 + 8 + 8,
+               "gpu_frame");
 _Static_assert(sizeof(gpu_light) == 5 * 16 + 12, "gpu_light");
 _Static_assert(sizeof(gpu_instance) == 48, "gpu_instance");
 _Static_assert(sizeof(gpu_material) == 16 + 16 + 16 + 20 + 60 + 4 + 2 * GPU_TEXTURE_COUNT * 12,
                "gpu_material");
 _Static_assert(sizeof(gpu_surface_constants) == 52, "gpu_surface_constants");
 _Static_assert(sizeof(gpu_resolve) == 20, "gpu_resolve");
+_Static_assert(sizeof(gpu_listed) == 16, "gpu_listed");
 #endif
 
 #endif

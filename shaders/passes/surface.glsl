@@ -1,4 +1,5 @@
 // Surfaces: what the material says of the place `here`, and the light that it sends to the eye.
+// LISTED: the place comes from a list, not from a rasteriser, and brings its derivatives along.
 #include "physics/display.glsl"
 #include "physics/environment.glsl"
 #include "physics/sh.glsl"
@@ -33,16 +34,21 @@ struct place {
     vec4 color;
     bool front; // its front is seen
     vec2 pixel; // from the upper left corner of what is drawn
+#ifdef LISTED // change to the next pixel
+    vec3 normal_dx, normal_dy;
+    vec4 uvs_dx, uvs_dy;
+#endif
 };
 place here; // given by who includes this
 
 #include "passes/lights.glsl"
 
-vec2 uv_of(uint t)
+// Of texture t; `one` is 1, or 0 for differences of coordinates.
+vec2 uv_of(uint t, vec4 uvs, float one)
 {
     if (GENERAL_UV == 0u)
-        return here.uvs.xy;
-    vec3 uv = vec3((material.uv1 >> t & 1u) != 0u ? here.uvs.zw : here.uvs.xy, 1.0);
+        return uvs.xy;
+    vec3 uv = vec3((material.uv1 >> t & 1u) != 0u ? uvs.zw : uvs.xy, one);
     return vec2(dot(material.uv_u[t], uv), dot(material.uv_v[t], uv));
 }
 
@@ -51,7 +57,14 @@ bool has(int t)
     return (TEXTURES >> t & 1u) != 0u;
 }
 
-#define SAMPLE(map, t, otherwise) (has(t) ? texture(map, uv_of(uint(t))) : (otherwise))
+#ifdef LISTED
+#define SAMPLE_AT(map, t, uvs)                                                                   \
+    textureGrad(map, uv_of(uint(t), uvs, 1.0), uv_of(uint(t), here.uvs_dx, 0.0),                 \
+                uv_of(uint(t), here.uvs_dy, 0.0))
+#else
+#define SAMPLE_AT(map, t, uvs) texture(map, uv_of(uint(t), uvs, 1.0))
+#endif
+#define SAMPLE(map, t, otherwise) (has(t) ? SAMPLE_AT(map, t, here.uvs) : (otherwise))
 
 // A normal map's x and y, from the directions of its own uv to those of the tangents, which
 // follow the mesh's uv: a transform of the texture turns the one against the other.
@@ -68,11 +81,10 @@ vec2 turned(vec2 m)
     return vec2(m.x * u.x - m.y * v.x, m.y * v.y - m.x * u.y);
 }
 
-vec3 shading_normal()
+vec3 shading_normal(vec3 n, vec4 uvs)
 {
-    vec3 n = here.normal;
     if (has(GPU_TEXTURE_NORMAL)) {
-        vec2 xy = texture(normal_texture, uv_of(GPU_TEXTURE_NORMAL)).xy * 2.0 - 1.0;
+        vec2 xy = SAMPLE_AT(normal_texture, GPU_TEXTURE_NORMAL, uvs).xy * 2.0 - 1.0;
         vec3 m = vec3(turned(xy) * material.normal_scale, sqrt(max(1.0 - dot(xy, xy), 0.0)));
         // As MikkTSpace bakes: the interpolated vectors are not normalised first.
         vec3 bitangent = here.tangent.w * cross(n, here.tangent.xyz);
@@ -80,6 +92,25 @@ vec3 shading_normal()
     }
     n = normalize(n);
     return here.front ? n : -n;
+}
+
+// How the normal changes to the next pixel.
+vec3 normal_change_x(vec3 n)
+{
+#ifdef LISTED
+    return shading_normal(here.normal + here.normal_dx, here.uvs + here.uvs_dx) - n;
+#else
+    return dFdx(n);
+#endif
+}
+
+vec3 normal_change_y(vec3 n)
+{
+#ifdef LISTED
+    return shading_normal(here.normal + here.normal_dy, here.uvs + here.uvs_dy) - n;
+#else
+    return dFdy(n);
+#endif
 }
 
 const bool ANISOTROPIC = (MODEL & SURFACE_DISTRIBUTION) == SURFACE_ANISOTROPIC;
@@ -155,16 +186,17 @@ vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness, float ao)
 
 vec3 radiance_to_eye(vec3 base_color)
 {
-    vec3 n = shading_normal();
+    vec3 n = shading_normal(here.normal, here.uvs);
     vec3 wo = frame.orthographic != 0.0 ? -frame.ray_center : normalize(frame.eye - here.position);
     surface_material m = material_here(base_color, n);
     float NoV = surface_cosine(n, wo);
     vec2 dfg = ANISOTROPIC ? surface_sky(m, n, wo)
-                           : texture(dfg_table, vec2(NoV, m.roughness)).rg;
+                           : textureLod(dfg_table, vec2(NoV, m.roughness), 0.0).rg;
     surface s = surface_from_metallic_roughness(m, NoV, dfg);
     // Only lights without extent sparkle.  Image light is filtered already, and wider lobes
     // would bring light to silhouettes that is not there: 2.5 times the error on spheres.
-    vec3 turn_x = frame.footprint * dFdx(n), turn_y = frame.footprint * dFdy(n);
+    vec3 turn_x = frame.footprint * normal_change_x(n),
+         turn_y = frame.footprint * normal_change_y(n);
     s.a2 = specular_aa_alpha2(s.a2, turn_x, turn_y);
     s.a2_across = specular_aa_alpha2(s.a2_across, turn_x, turn_y);
 

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "passes/frame.glsl"
+#include "passes/vertex.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -21,26 +22,12 @@ layout(location = 4) out vec4 out_color;
 
 void main()
 {
-    vec3 x = row_x.xyz, y = row_y.xyz, z = row_z.xyz;
-    vec4 p = vec4(position, 1.0);
-    out_position = vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p));
+    vec4 rows[3] = vec4[](row_x, row_y, row_z);
+    out_position = world_position(rows, position);
     gl_Position = frame.clip_from_world * vec4(out_position, 1.0);
-
-    // Normals go by the cofactors, which are right under any scaling (made of size 1 first,
-    // lest they overflow); mirrored ones would turn inside out, hence the sign of the
-    // determinant.
-    float size = inversesqrt(dot(x, x) + dot(y, y) + dot(z, z));
-    x *= size;
-    y *= size;
-    z *= size;
-    vec3 yz = cross(y, z);
-    float flip = dot(x, yz) < 0.0 ? -1.0 : 1.0;
-    out_normal = flip * normalize(vec3(dot(yz, normal), dot(cross(z, x), normal),
-                                       dot(cross(x, y), normal)));
-    out_tangent.xyz = vec3(dot(x, tangent.xyz), dot(y, tangent.xyz), dot(z, tangent.xyz));
-    float length2 = dot(out_tangent.xyz, out_tangent.xyz);
-    out_tangent.xyz *= length2 > 0.0 ? inversesqrt(length2) : 0.0;
-    out_tangent.w = flip * tangent.w;
+    world_frame f = world_frame_of(rows);
+    out_normal = world_normal(f, normal);
+    out_tangent = world_tangent(f, tangent);
     out_uvs = uvs;
     out_color = color;
 }

@@ -42,3 +42,16 @@ ag_status gpu_buffer_ensure(gpu_device *device, VkDeviceSize size, VkBufferUsage
     gpu_buffer_destroy(device, buffer);
     return gpu_buffer_create(device, size, usage, use, buffer);
 }
+
+ag_status gpu_buffer_view(gpu_device *device, const gpu_buffer *buffer, VkFormat format,
+                          VkBufferView *view)
+{
+    const VkBufferViewCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+        .buffer = buffer->buffer,
+        .format = format,
+        .range = VK_WHOLE_SIZE,
+    };
+    return gpu_check(device, vkCreateBufferView(device->device, &info, NULL, view),
+                     "vkCreateBufferView");
+}

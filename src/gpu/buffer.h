@@ -21,4 +21,8 @@ AG_CHECK ag_status gpu_buffer_ensure(gpu_device *device, VkDeviceSize size,
                                      VkBufferUsageFlags usage, gpu_memory_use use,
                                      gpu_buffer *buffer);
 
+// The buffer's elements as texels of `format`; to be destroyed with vkDestroyBufferView.
+AG_CHECK ag_status gpu_buffer_view(gpu_device *device, const gpu_buffer *buffer, VkFormat format,
+                                   VkBufferView *view);
+
 #endif

@@ -30,10 +30,11 @@ typedef struct gpu_access {
 extern const gpu_access GPU_ACCESS_NONE;           // nothing: contents are dropped
 extern const gpu_access GPU_ACCESS_COLOR;          // drawn to and resolved to
 extern const gpu_access GPU_ACCESS_DEPTH;          // depth attachment
-extern const gpu_access GPU_ACCESS_SAMPLED;        // read by fragment shaders
+extern const gpu_access GPU_ACCESS_SAMPLED;        // read by fragment and compute shaders
 extern const gpu_access GPU_ACCESS_TRANSFER_READ;  // copied from
 extern const gpu_access GPU_ACCESS_TRANSFER_WRITE; // copied to
 extern const gpu_access GPU_ACCESS_HOST_READ;      // read by the host (memory only)
+extern const gpu_access GPU_ACCESS_COMPUTE_WRITE;  // storage written (memory only)
 extern const gpu_access GPU_ACCESS_GEOMETRY;       // vertices, indices, shader storage
 
 void gpu_barrier_image(const gpu_commands *commands, const gpu_image *image, gpu_access before,

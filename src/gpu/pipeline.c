@@ -1,4 +1,4 @@
-// Graphics pipelines for dynamic rendering, and the layouts they are made with.
+// Pipelines, graphics ones for dynamic rendering, and the layouts they are made with.
 #include "gpu/pipeline.h"
 
 enum { CONSTANTS_MAX = 16 };
@@ -28,15 +28,25 @@ static VkPipelineColorBlendAttachmentState blend_state(gpu_blend blend)
     };
 }
 
+// Specialisation constants 0, 1, ...
+typedef struct constants {
+    VkSpecializationMapEntry entries[CONSTANTS_MAX];
+    VkSpecializationInfo info;
+} constants;
+
+static void init_constants(const uint32_t *values, uint32_t count, constants *c)
+{
+    for (uint32_t i = 0; i < count; i++)
+        c->entries[i] = (VkSpecializationMapEntry) { i, i * 4, 4 };
+    c->info = (VkSpecializationInfo) { count, c->entries, count * 4ul, values };
+}
+
 static ag_status create_pipeline(gpu_device *device, const gpu_pipeline_desc *desc,
                                  VkShaderModule vertex, VkShaderModule fragment,
                                  VkPipeline *pipeline)
 {
-    VkSpecializationMapEntry entries[CONSTANTS_MAX];
-    for (uint32_t i = 0; i < desc->constant_count; i++)
-        entries[i] = (VkSpecializationMapEntry) { i, i * 4, 4 };
-    const VkSpecializationInfo constants = { desc->constant_count, entries,
-                                             desc->constant_count * 4ul, desc->constants };
+    constants special;
+    init_constants(desc->constants, desc->constant_count, &special);
     const VkPipelineShaderStageCreateInfo stages[] = {
         { .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
           .stage = VK_SHADER_STAGE_VERTEX_BIT,
@@ -46,7 +56,7 @@ static ag_status create_pipeline(gpu_device *device, const gpu_pipeline_desc *de
           .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
           .module = fragment,
           .pName = "main",
-          .pSpecializationInfo = &constants },
+          .pSpecializationInfo = &special.info },
     };
     const VkPipelineVertexInputStateCreateInfo no_vertices = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO
@@ -130,6 +140,32 @@ ag_status gpu_pipeline_create(gpu_device *device, const gpu_pipeline_desc *desc,
     return status;
 }
 
+ag_status gpu_compute_create(gpu_device *device, const gpu_compute_desc *desc, VkPipeline *pipeline)
+{
+    VkShaderModule module = VK_NULL_HANDLE;
+    *pipeline = VK_NULL_HANDLE;
+    ag_status status = create_module(device, desc->shader, &module);
+    if (status)
+        return status;
+    constants special;
+    init_constants(desc->constants, desc->constant_count, &special);
+    const VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = { .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                   .module = module,
+                   .pName = "main",
+                   .pSpecializationInfo = &special.info },
+        .layout = desc->layout,
+    };
+    status = gpu_check(
+        device,
+        vkCreateComputePipelines(device->device, device->pipeline_cache, 1, &info, NULL, pipeline),
+        "vkCreateComputePipelines");
+    vkDestroyShaderModule(device->device, module, NULL);
+    return status;
+}
+
 ag_status gpu_set_layout_create(gpu_device *device, const VkDescriptorSetLayoutBinding *bindings,
                                 uint32_t count, VkDescriptorSetLayout *layout)
 {
@@ -143,10 +179,10 @@ ag_status gpu_set_layout_create(gpu_device *device, const VkDescriptorSetLayoutB
 }
 
 ag_status gpu_pipeline_layout_create(gpu_device *device, const VkDescriptorSetLayout *sets,
-                                     uint32_t count, uint32_t push_bytes, VkPipelineLayout *layout)
+                                     uint32_t count, VkShaderStageFlags stages, uint32_t push_bytes,
+                                     VkPipelineLayout *layout)
 {
-    const VkPushConstantRange range = { VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
-                                        0, push_bytes };
+    const VkPushConstantRange range = { stages, 0, push_bytes };
     const VkPipelineLayoutCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
         .setLayoutCount = count,

@@ -1,4 +1,4 @@
-// Graphics pipelines for dynamic rendering, and the layouts they are made with.
+// Pipelines, graphics ones for dynamic rendering, and the layouts they are made with.
 #ifndef AG_GPU_PIPELINE_H
 #define AG_GPU_PIPELINE_H
 
@@ -32,12 +32,23 @@ typedef struct gpu_pipeline_desc {
 AG_CHECK ag_status gpu_pipeline_create(gpu_device *device, const gpu_pipeline_desc *desc,
                                        VkPipeline *pipeline);
 
+typedef struct gpu_compute_desc {
+    gpu_shader shader;
+    VkPipelineLayout layout;
+    const uint32_t *constants; // specialisation constants 0, 1, ...
+    uint32_t constant_count;
+} gpu_compute_desc;
+
+AG_CHECK ag_status gpu_compute_create(gpu_device *device, const gpu_compute_desc *desc,
+                                      VkPipeline *pipeline);
+
 AG_CHECK ag_status gpu_set_layout_create(gpu_device *device,
                                          const VkDescriptorSetLayoutBinding *bindings,
                                          uint32_t count, VkDescriptorSetLayout *layout);
 
+// `push_bytes` of push constants, seen by `stages`.
 AG_CHECK ag_status gpu_pipeline_layout_create(gpu_device *device, const VkDescriptorSetLayout *sets,
-                                              uint32_t count, uint32_t push_bytes,
-                                              VkPipelineLayout *layout);
+                                              uint32_t count, VkShaderStageFlags stages,
+                                              uint32_t push_bytes, VkPipelineLayout *layout);
 
 #endif

@@ -6,11 +6,28 @@
 #define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 #define UNIFORM VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
 #define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+#define TEXELS VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+
+static ag_status create_shading_layouts(gpu_device *device, bindings *b)
+{
+    const VkShaderStageFlags compute = VK_SHADER_STAGE_COMPUTE_BIT;
+    const VkDescriptorSetLayoutBinding listed[] = {
+        { 0, TEXELS, 1, compute, NULL },  { 1, TEXELS, 1, compute, NULL },
+        { 2, TEXELS, 1, compute, NULL },  { 3, TEXELS, 1, compute, NULL },
+        { 4, STORAGE, 1, compute, NULL },
+    };
+    ag_status status = gpu_set_layout_create(device, listed, 5, &b->listed_set);
+    const VkDescriptorSetLayout shading[] = { b->frame_set, b->material_set, b->listed_set };
+    if (!status)
+        status =
+            gpu_pipeline_layout_create(device, shading, 3, compute, sizeof(gpu_list), &b->shading);
+    return status;
+}
 
 static ag_status create_layouts(gpu_device *device, bindings *b)
 {
     const VkShaderStageFlags vertex = VK_SHADER_STAGE_VERTEX_BIT,
-                             fragment = VK_SHADER_STAGE_FRAGMENT_BIT;
+                             fragment = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
     const VkDescriptorSetLayoutBinding frame[] = {
         { 0, UNIFORM, 1, vertex | fragment, NULL },
         { 1, IMAGE, 1, fragment, NULL },
@@ -35,11 +52,12 @@ static ag_status create_layouts(gpu_device *device, bindings *b)
         status = gpu_set_layout_create(device, picture, 1, &b->picture_set);
     const VkDescriptorSetLayout surfaces[] = { b->frame_set, b->material_set };
     if (!status)
-        status = gpu_pipeline_layout_create(device, surfaces, 2, 0, &b->surfaces);
+        status = gpu_pipeline_layout_create(device, surfaces, 2, 0, 0, &b->surfaces);
     if (!status)
-        status = gpu_pipeline_layout_create(device, &b->picture_set, 1, sizeof(gpu_resolve),
-                                            &b->pictures);
-    return status;
+        status =
+            gpu_pipeline_layout_create(device, &b->picture_set, 1, VK_SHADER_STAGE_FRAGMENT_BIT,
+                                       sizeof(gpu_resolve), &b->pictures);
+    return status ? status : create_shading_layouts(device, b);
 }
 
 static ag_status create_samplers(gpu_device *device, bindings *b)
@@ -65,11 +83,13 @@ static ag_status create_samplers(gpu_device *device, bindings *b)
 
 static ag_status create_sets(gpu_device *device, bindings *b)
 {
-    const VkDescriptorPoolSize sizes[] = { { UNIFORM, 2 }, { IMAGE, 7 }, { STORAGE, 2 } };
+    const VkDescriptorPoolSize sizes[] = {
+        { UNIFORM, 2 }, { IMAGE, 7 }, { STORAGE, 3 }, { TEXELS, 4 }
+    };
     const VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = 3,
-        .poolSizeCount = 3,
+        .maxSets = 4,
+        .poolSizeCount = sizeof sizes / sizeof *sizes,
         .pPoolSizes = sizes,
     };
     ag_status status =
@@ -77,12 +97,13 @@ static ag_status create_sets(gpu_device *device, bindings *b)
                   "vkCreateDescriptorPool");
     if (status)
         return status;
-    const VkDescriptorSetLayout layouts[] = { b->frame_set, b->picture_set, b->picture_set };
-    VkDescriptorSet sets[3];
+    const VkDescriptorSetLayout layouts[] = { b->frame_set, b->picture_set, b->picture_set,
+                                              b->listed_set };
+    VkDescriptorSet sets[4];
     const VkDescriptorSetAllocateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
         .descriptorPool = b->pool,
-        .descriptorSetCount = 3,
+        .descriptorSetCount = 4,
         .pSetLayouts = layouts,
     };
     status = gpu_check(device, vkAllocateDescriptorSets(device->device, &info, sets),
@@ -92,6 +113,7 @@ static ag_status create_sets(gpu_device *device, bindings *b)
     b->frame = sets[0];
     b->picture = sets[1];
     b->sum = sets[2];
+    b->listed = sets[3];
     return AG_OK;
 }
 
@@ -115,6 +137,8 @@ void bindings_destroy(gpu_device *device, bindings *b)
     vkDestroySampler(device->device, b->panorama, NULL);
     vkDestroyPipelineLayout(device->device, b->surfaces, NULL);
     vkDestroyPipelineLayout(device->device, b->pictures, NULL);
+    vkDestroyPipelineLayout(device->device, b->shading, NULL);
+    vkDestroyDescriptorSetLayout(device->device, b->listed_set, NULL);
     vkDestroyDescriptorSetLayout(device->device, b->frame_set, NULL);
     vkDestroyDescriptorSetLayout(device->device, b->material_set, NULL);
     vkDestroyDescriptorSetLayout(device->device, b->picture_set, NULL);
@@ -148,6 +172,20 @@ void bindings_write_buffer(gpu_device *device, VkDescriptorSet set, uint32_t bin
         .descriptorCount = 1,
         .descriptorType = type,
         .pBufferInfo = &info,
+    };
+    vkUpdateDescriptorSets(device->device, 1, &write, 0, NULL);
+}
+
+void bindings_write_texels(gpu_device *device, VkDescriptorSet set, uint32_t binding,
+                           VkBufferView view)
+{
+    const VkWriteDescriptorSet write = {
+        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+        .dstSet = set,
+        .dstBinding = binding,
+        .descriptorCount = 1,
+        .descriptorType = TEXELS,
+        .pTexelBufferView = &view,
     };
     vkUpdateDescriptorSets(device->device, 1, &write, 0, NULL);
 }

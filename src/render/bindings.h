@@ -7,13 +7,14 @@
 #include "gpu/pipeline.h"
 
 typedef struct bindings {
-    VkDescriptorSetLayout frame_set, material_set, picture_set;
+    VkDescriptorSetLayout frame_set, material_set, picture_set, listed_set;
     VkPipelineLayout surfaces; // frame, material; also the background's
     VkPipelineLayout pictures; // picture; push constants gpu_resolve
+    VkPipelineLayout shading;  // frame, material, listed; push constants gpu_list
     VkSampler linear;          // clamped, between mips
     VkSampler panorama;        // wraps around, clamped above and below
     VkDescriptorPool pool;     // of the sets below
-    VkDescriptorSet frame, picture, sum;
+    VkDescriptorSet frame, picture, sum, listed;
 } bindings;
 
 AG_CHECK ag_status bindings_create(gpu_device *device, bindings *b);
@@ -24,5 +25,7 @@ void bindings_write_image(gpu_device *device, VkDescriptorSet set, uint32_t bind
 void bindings_write_buffer(gpu_device *device, VkDescriptorSet set, uint32_t binding,
                            VkDescriptorType type, VkBuffer buffer, VkDeviceSize offset,
                            VkDeviceSize size);
+void bindings_write_texels(gpu_device *device, VkDescriptorSet set, uint32_t binding,
+                           VkBufferView view);
 
 #endif

@@ -3,84 +3,14 @@
 
 #include "render/body.h"
 #include "render/clusters.h"
+#include "render/deferred.h"
+#include "render/variants.h"
 
 #include "physics/color.glsl"
-#include "physics/display.glsl"
 #include "physics/sampling.glsl"
 
 #include <math.h>
 #include <string.h>
-
-// ---- Pipelines ---------------------------------------------------------------
-
-// What turns exposed light into the picture.
-static uint32_t display_tone(const ag_render_options *o)
-{
-    if (o->format == AG_FORMAT_RGBA32F)
-        return GPU_TONE_LINEAR;
-    return (uint32_t)o->tonemap | (o->transfer == AG_TRANSFER_GAMMA_22 ? DISPLAY_GAMMA_22 : 0);
-}
-
-// The part of it that the surfaces' own shader does.
-static uint32_t surface_tone(const picture *p)
-{
-    return p->hdr ? GPU_TONE_LINEAR : display_tone(p->options);
-}
-
-static uint32_t environment_kind(const ag_renderer *r, const picture *p)
-{
-    if (!r->resident.surround.present)
-        return GPU_ENVIRONMENT_NONE;
-    return p->options->quality == AG_QUALITY_FAST ? GPU_ENVIRONMENT_HARMONICS
-                                                  : GPU_ENVIRONMENT_CUBE;
-}
-
-static ag_status surface_pipeline(ag_renderer *r, const picture *p, uint32_t material,
-                                  VkPipeline *pipeline)
-{
-    pipeline_key key = {
-        .kind = PIPELINE_SURFACE,
-        .format = targets_surface_format(&r->targets.desc),
-        .constants = r->resident.materials.constants[material],
-    };
-    if (!key.constants.unlit) {
-        key.constants.environment = environment_kind(r, p);
-        lights_constants(&r->resident.lights, &key.constants);
-        if (key.constants.groups & ~(1u << GPU_LIGHTS_PUNCTUAL))
-            key.constants.method = (uint32_t)p->options->area_lights;
-    }
-    key.constants.tone = surface_tone(p);
-    key.constants.samples = r->targets.desc.samples;
-    return pipelines_get(r->device, &r->bindings, &r->pipelines, &key, pipeline);
-}
-
-// Of a pass that draws beside the surfaces, into the same targets.
-static ag_status beside_pipeline(ag_renderer *r, const picture *p, pipeline_kind kind,
-                                 VkPipeline *pipeline)
-{
-    pipeline_key key = {
-        .kind = kind,
-        .format = targets_surface_format(&r->targets.desc),
-        .constants = { .samples = r->targets.desc.samples, .tone = surface_tone(p) },
-    };
-    gpu_surface_constants lit = { 0 };
-    lights_constants(&r->resident.lights, &lit);
-    if (kind == PIPELINE_BACKGROUND) {
-        key.constants.environment = r->resident.surround.present;
-        key.constants.groups = lit.groups & 1u << GPU_LIGHTS_CAP;
-    }
-    return pipelines_get(r->device, &r->bindings, &r->pipelines, &key, pipeline);
-}
-
-// Of a pass over pictures.
-static ag_status pass_pipeline(ag_renderer *r, pipeline_kind kind, VkFormat format, uint32_t tone,
-                               VkPipeline *pipeline)
-{
-    const pipeline_key key = { .kind = kind,
-                               .format = format,
-                               .constants = { .samples = 1, .tone = tone } };
-    return pipelines_get(r->device, &r->bindings, &r->pipelines, &key, pipeline);
-}
 
 // ---- Recording ---------------------------------------------------------------
 
@@ -113,7 +43,7 @@ static ag_status record_draws(ag_renderer *r, const picture *p, uint32_t first, 
         const draw *d = &p->draws.items[i];
         if (d->material != material) {
             VkPipeline pipeline;
-            ag_status status = surface_pipeline(r, p, d->material, &pipeline);
+            ag_status status = variants_surface(r, p, PIPELINE_SURFACE, d->material, &pipeline);
             if (status)
                 return status;
             if (pipeline != bound)
@@ -140,7 +70,7 @@ static ag_status record_bodies(ag_renderer *r, const picture *p)
     VkPipeline pipeline;
     if (l->bodies == l->count)
         return AG_OK;
-    ag_status status = beside_pipeline(r, p, PIPELINE_BODY, &pipeline);
+    ag_status status = variants_beside(r, p, PIPELINE_BODY, &pipeline);
     if (status)
         return status;
     vkCmdBindPipeline(r->commands.buffer, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
@@ -152,7 +82,7 @@ static ag_status record_background(ag_renderer *r, const picture *p)
 {
     VkCommandBuffer cmd = r->commands.buffer;
     VkPipeline pipeline;
-    ag_status status = beside_pipeline(r, p, PIPELINE_BACKGROUND, &pipeline);
+    ag_status status = variants_beside(r, p, PIPELINE_BACKGROUND, &pipeline);
     if (status)
         return status;
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
@@ -181,8 +111,7 @@ static ag_status record_scene(ag_renderer *r, const picture *p, bool warm_up)
     return status;
 }
 
-// What lies under the picture where nothing covers it, display-linear, premultiplied.
-static float4 backdrop(const picture *p)
+float4 frame_backdrop(const picture *p)
 {
     if (p->options->background != AG_BACKGROUND_COLOR)
         return (float4) { 0, 0, 0, 0 };
@@ -240,7 +169,7 @@ static ag_status record_surfaces(ag_renderer *r, const picture *p, bool warm_up)
 
     const float4 nothing = { 0, 0, 0, 0 };
     begin_rendering(r->commands.buffer, t, drawn->view, drawn != out ? out->view : VK_NULL_HANDLE,
-                    true, VK_ATTACHMENT_LOAD_OP_CLEAR, p->hdr ? nothing : backdrop(p));
+                    true, VK_ATTACHMENT_LOAD_OP_CLEAR, p->hdr ? nothing : frame_backdrop(p));
     ag_status status = record_scene(r, p, warm_up);
     vkCmdEndRendering(r->commands.buffer);
     return status;
@@ -253,7 +182,7 @@ static ag_status record_pass(ag_renderer *r, pipeline_kind kind, uint32_t tone,
 {
     VkCommandBuffer cmd = r->commands.buffer;
     VkPipeline pipeline;
-    ag_status status = pass_pipeline(r, kind, into->desc.format, tone, &pipeline);
+    ag_status status = variants_pass(r, kind, into->desc.format, tone, &pipeline);
     if (status)
         return status;
     const float4 nothing = { 0, 0, 0, 0 };
@@ -262,8 +191,7 @@ static ag_status record_pass(ag_renderer *r, pipeline_kind kind, uint32_t tone,
     set_area(cmd, r->targets.desc.width, r->targets.desc.height, warm_up);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bind_set(cmd, r->bindings.pictures, 0, from);
-    vkCmdPushConstants(cmd, r->bindings.pictures,
-                       VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push,
+    vkCmdPushConstants(cmd, r->bindings.pictures, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push,
                        &push);
     vkCmdDraw(cmd, 3, 1, 0, 0);
     vkCmdEndRendering(cmd);
@@ -278,7 +206,7 @@ static ag_status record_resolve(ag_renderer *r, const picture *p, uint32_t index
     dropped.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     dropped.stage |= VK_PIPELINE_STAGE_2_COPY_BIT;
     sampled_before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    const gpu_resolve push = { backdrop(p), 1.0f / (float)p->frames };
+    const gpu_resolve push = { frame_backdrop(p), 1.0f / (float)p->frames };
     bool last = warm_up || index + 1 == p->frames;
 
     gpu_barrier_image(&r->commands, &t->radiance, GPU_ACCESS_COLOR, GPU_ACCESS_SAMPLED);
@@ -295,7 +223,7 @@ static ag_status record_resolve(ag_renderer *r, const picture *p, uint32_t index
     if (status || !last)
         return status;
     gpu_barrier_image(&r->commands, &t->picture, dropped, GPU_ACCESS_COLOR);
-    return record_pass(r, PIPELINE_RESOLVE, display_tone(p->options),
+    return record_pass(r, PIPELINE_RESOLVE, variants_tone(p->options),
                        t->desc.sum ? r->bindings.sum : r->bindings.picture, &t->picture, false,
                        warm_up, push);
 }
@@ -318,7 +246,7 @@ static ag_status record_and_submit(ag_renderer *r, const picture *p, uint32_t in
 
 ag_status frame_warm_up(ag_renderer *r, const picture *p)
 {
-    return record_and_submit(r, p, 0, true);
+    return p->deferred ? deferred_warm_up(r, p) : record_and_submit(r, p, 0, true);
 }
 
 // Where frame `index` samples its pixels: a Gaussian filter of .47 px standard deviation, cut
@@ -365,5 +293,5 @@ ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t 
     status = find_clusters(r, p, tile, index, frame);
     if (status)
         return status;
-    return record_and_submit(r, p, index, false);
+    return p->deferred ? deferred_draw(r, p, index) : record_and_submit(r, p, index, false);
 }

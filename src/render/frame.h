@@ -14,6 +14,7 @@ typedef struct picture {
     draws draws;
     bool hdr, background; // see targets_desc; background: the environment is shown
     uint32_t frames;      // jittered and summed; 1 = one frame without jitter
+    bool deferred;        // see deferred.h
 } picture;
 
 // Compile what the picture needs, by drawing nothing with every pipeline and material.
@@ -23,5 +24,8 @@ AG_CHECK ag_status frame_warm_up(ag_renderer *renderer, const picture *p);
 // renderer->targets.pixels.
 AG_CHECK ag_status frame_draw(ag_renderer *renderer, const picture *p, view_rect tile,
                               uint32_t index);
+
+// What lies under the picture where nothing covers it, display-linear, premultiplied.
+float4 frame_backdrop(const picture *p);
 
 #endif

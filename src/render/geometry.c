@@ -74,18 +74,17 @@ ag_status geometry_create(gpu_device *device, const ag_scene *scene, gpu_upload 
                           geometry *g)
 {
     *g = (geometry) { 0 };
+    const VkBufferUsageFlags read =
+        VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     uint64_t vertices = 0, indices = 0;
     ag_status status = lay_out(scene, g, &vertices, &indices);
     if (!status)
-        status =
-            gpu_buffer_create(device, vertices * sizeof(scene_vertex),
-                              VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                              GPU_MEMORY_DEVICE, &g->vertices);
+        status = gpu_buffer_create(device, vertices * sizeof(scene_vertex),
+                                   VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | read, GPU_MEMORY_DEVICE,
+                                   &g->vertices);
     if (!status)
-        status =
-            gpu_buffer_create(device, indices * 4,
-                              VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                              GPU_MEMORY_DEVICE, &g->indices);
+        status = gpu_buffer_create(device, indices * 4, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | read,
+                                   GPU_MEMORY_DEVICE, &g->indices);
     return status ? status : fill(scene, upload, g);
 }
 

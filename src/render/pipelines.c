@@ -58,6 +58,27 @@ static gpu_pipeline_desc describe(const bindings *b, const pipeline_key *key)
     return desc;
 }
 
+static ag_status create_compute(gpu_device *device, const bindings *b, const pipeline_key *key,
+                                VkPipeline *pipeline)
+{
+    gpu_compute_desc desc = {
+        .shader = shader_shade_comp(),
+        .layout = b->shading,
+        .constants = (const uint32_t *)&key->constants,
+        .constant_count = sizeof key->constants / 4,
+    };
+    if (key->kind == PIPELINE_SHADE_BACKGROUND)
+        desc.shader = shader_shade_background_comp();
+    return gpu_compute_create(device, &desc, pipeline);
+}
+
+static ag_status create_graphics(gpu_device *device, const bindings *b, const pipeline_key *key,
+                                 VkPipeline *pipeline)
+{
+    const gpu_pipeline_desc desc = describe(b, key);
+    return gpu_pipeline_create(device, &desc, pipeline);
+}
+
 ag_status pipelines_get(gpu_device *device, const bindings *b, pipelines *p,
                         const pipeline_key *key, VkPipeline *pipeline)
 {
@@ -68,8 +89,8 @@ ag_status pipelines_get(gpu_device *device, const bindings *b, pipelines *p,
         }
     if (!array_reserve(&p->entries, &p->capacity, p->count + 1, sizeof *p->entries))
         return log_fail(&device->log, AG_ERROR_MEMORY, "no memory for a pipeline");
-    const gpu_pipeline_desc desc = describe(b, key);
-    ag_status status = gpu_pipeline_create(device, &desc, pipeline);
+    ag_status status = key->kind >= PIPELINE_SHADE ? create_compute(device, b, key, pipeline)
+                                                   : create_graphics(device, b, key, pipeline);
     if (!status)
         p->entries[p->count++] = (pipelines_entry) { *key, *pipeline };
     return status;

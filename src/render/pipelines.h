@@ -12,6 +12,8 @@ typedef enum pipeline_kind {
     PIPELINE_BACKGROUND, // the environment behind everything
     PIPELINE_ACCUMULATE, // a picture into the sum
     PIPELINE_RESOLVE,    // radiance to the picture that leaves
+    PIPELINE_SHADE,      // surfaces, from a list; this and what follows compute
+    PIPELINE_SHADE_BACKGROUND,
 } pipeline_kind;
 
 // What tells pipelines apart.  Compared byte by byte: no padding.

@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "image/image.h"
 #include "render/body.h"
+#include "render/deferred.h"
 #include "render/frame.h"
 #include "render/pixels.h"
 
@@ -51,6 +52,7 @@ void ag_renderer_destroy(ag_renderer *r)
     gpu_commands_destroy(r->device, &r->commands);
     resident_destroy(r->device, &r->resident);
     targets_destroy(r->device, &r->targets);
+    visibility_destroy(r->device, &r->visibility);
     pipelines_destroy(r->device, &r->pipelines);
     gpu_buffer_destroy(r->device, &r->frame);
     gpu_buffer_destroy(r->device, &r->instances);
@@ -121,9 +123,10 @@ static ag_status plan(const ag_scene *scene, const ag_camera_desc *camera,
 
 static ag_status upload_instances(ag_renderer *r, const draws *d)
 {
-    ag_status status =
-        gpu_buffer_ensure(r->device, d->instance_count * sizeof(gpu_instance),
-                          VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, GPU_MEMORY_UPLOAD, &r->instances);
+    ag_status status = gpu_buffer_ensure(r->device, d->instance_count * sizeof(gpu_instance),
+                                         VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                             VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                                         GPU_MEMORY_UPLOAD, &r->instances);
     if (!status)
         memcpy(r->instances.memory.mapped, d->instances, d->instance_count * sizeof(gpu_instance));
     return status;
@@ -173,9 +176,19 @@ static uint32_t tile_limit(const ag_renderer *r)
     return limit < r->device->info.max_size ? limit : r->device->info.max_size;
 }
 
-static ag_status prepare(ag_renderer *r, const picture *p, ag_render_stats *stats)
+static ag_status prepare(ag_renderer *r, picture *p, ag_render_stats *stats)
 {
     const ag_render_options *o = p->options;
+    ag_status status = resident_things(r, p->scene, false, &stats->upload_ms);
+    if (!status)
+        status = resident_surround(r, p->scene, p->background, stats);
+    if (!status)
+        status = lights_write(r->device, p->scene, o->exposure, &r->resident.lights);
+    if (!status)
+        status = upload_instances(r, &p->draws);
+    if (status)
+        return status;
+    p->deferred = deferred_fits(r, p);
     uint32_t limit = tile_limit(r);
     const targets_desc desc = {
         .width = tile_size(o->width, limit),
@@ -183,17 +196,12 @@ static ag_status prepare(ag_renderer *r, const picture *p, ag_render_stats *stat
         .samples = o->quality == AG_QUALITY_DEFAULT ? 4 : 1,
         .hdr = p->hdr,
         .sum = p->frames > 1,
+        .deferred = p->deferred,
         .format = o->format,
     };
-    ag_status status = resident_things(r, p->scene, false, &stats->upload_ms);
-    if (!status)
-        status = resident_surround(r, p->scene, p->background, stats);
-    if (!status)
-        status = targets_ensure(r->device, &desc, &r->targets);
-    if (!status)
-        status = lights_write(r->device, p->scene, o->exposure, &r->resident.lights);
-    if (!status)
-        status = upload_instances(r, &p->draws);
+    status = targets_ensure(r->device, &desc, &r->targets);
+    if (!status && p->deferred)
+        status = deferred_prepare(r, p);
     if (status)
         return status;
     write_frame_set(r);
@@ -246,7 +254,7 @@ static ag_status draw_tiles(ag_renderer *r, const picture *p, ag_image *image,
     return AG_OK;
 }
 
-static ag_status render(ag_renderer *r, const picture *p, ag_image **out, ag_render_stats *stats)
+static ag_status render(ag_renderer *r, picture *p, ag_image **out, ag_render_stats *stats)
 {
     ag_status status = prepare(r, p, stats);
     if (status)

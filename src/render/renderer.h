@@ -11,6 +11,7 @@
 #include "render/surround.h"
 #include "render/targets.h"
 #include "render/textures.h"
+#include "render/visibility.h"
 
 // What of a scene is on the device.
 typedef struct resident {
@@ -28,7 +29,9 @@ struct ag_renderer {
     bindings bindings;
     pipelines pipelines;
     targets targets;
+    visibility visibility;
     resident resident;
+    bool forward_only;    // for tests: never deferred
     gpu_buffer frame;     // gpu_frame
     gpu_buffer instances; // gpu_instance
     gpu_buffer body;      // indices of the grid that a light's body is

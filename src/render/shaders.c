@@ -28,6 +28,12 @@ static const uint32_t accumulate_frag[] =
 static const uint32_t resolve_frag[] =
 #include "resolve.frag.inc"
     ;
+static const uint32_t shade_comp[] =
+#include "shade.comp.inc"
+    ;
+static const uint32_t shade_background_comp[] =
+#include "shade_background.comp.inc"
+    ;
 
 gpu_shader shader_surface_vert(void)
 {
@@ -72,4 +78,14 @@ gpu_shader shader_accumulate_frag(void)
 gpu_shader shader_resolve_frag(void)
 {
     return (gpu_shader) { resolve_frag, sizeof resolve_frag };
+}
+
+gpu_shader shader_shade_comp(void)
+{
+    return (gpu_shader) { shade_comp, sizeof shade_comp };
+}
+
+gpu_shader shader_shade_background_comp(void)
+{
+    return (gpu_shader) { shade_background_comp, sizeof shade_background_comp };
 }

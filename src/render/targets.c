@@ -25,16 +25,13 @@ static ag_status create(gpu_device *device, const targets_desc *desc, VkFormat f
 static bool same(const targets_desc *a, const targets_desc *b)
 {
     return a->width == b->width && a->height == b->height && a->samples == b->samples &&
-           a->hdr == b->hdr && a->sum == b->sum && a->format == b->format;
+           a->hdr == b->hdr && a->sum == b->sum && a->format == b->format &&
+           a->deferred == b->deferred;
 }
 
-ag_status targets_ensure(gpu_device *device, const targets_desc *desc, targets *t)
+static ag_status create_images(gpu_device *device, const targets_desc *desc, targets *t)
 {
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    if (t->picture.image && same(&t->desc, desc))
-        return AG_OK;
-    targets_destroy(device, t);
-    t->desc = *desc;
     VkFormat surface = targets_surface_format(desc), picture = targets_picture_format(desc->format);
     ag_status status = create(device, desc, VK_FORMAT_D32_SFLOAT, desc->samples,
                               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, &t->depth);
@@ -48,6 +45,16 @@ ag_status targets_ensure(gpu_device *device, const targets_desc *desc, targets *
     if (!status)
         status =
             create(device, desc, picture, 1, color | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, &t->picture);
+    return status;
+}
+
+ag_status targets_ensure(gpu_device *device, const targets_desc *desc, targets *t)
+{
+    if (t->pixels.buffer && same(&t->desc, desc))
+        return AG_OK;
+    targets_destroy(device, t);
+    t->desc = *desc;
+    ag_status status = desc->deferred ? AG_OK : create_images(device, desc, t);
     VkDeviceSize texel = desc->format == AG_FORMAT_RGBA8 ? 4 : 16;
     if (!status)
         status =

@@ -11,6 +11,7 @@ typedef struct targets_desc {
     uint32_t samples;       // 1 or 4
     bool hdr;               // surfaces leave linear radiance for a resolve pass
     bool sum;               // several pictures are accumulated
+    bool deferred;          // nothing is drawn: the host makes the picture
     ag_format format;       // of the picture
 } targets_desc;
 

@@ -133,5 +133,6 @@ void view_frame(const view *v, view_rect tile, const float jitter[2], gpu_frame 
     memcpy(&frame->ray_center, rays[0], sizeof rays[0]);
     memcpy(&frame->ray_x, rays[1], sizeof rays[1]);
     memcpy(&frame->ray_y, rays[2], sizeof rays[2]);
+    frame->pixel = (float2) { 2 / (float)tile.width, 2 / (float)tile.height };
     frame->orthographic = v->orthographic ? 1 : 0;
 }
