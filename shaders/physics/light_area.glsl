@@ -44,6 +44,8 @@ STRUCT(light_arc) {
 STRUCT(light_outline) {
     light_lobe lobe;
     light_arc piece[AREA_PIECES];
+    light_arc arc[5]; // whole: enough where all are short
+    bool small;
     bool closed; // by a fifth along the horizon,
     vec3 out_at; // from here
     vec3 in_at;  // to here
@@ -52,6 +54,7 @@ STRUCT(light_outline) {
 // The light ready for any Fresnel: weight and v.h of each node.
 STRUCT(light_nodes) {
     vec2 node[AREA_NODES];
+    int used;
     vec3 centre;
     real area;
     real scale;
@@ -164,6 +167,9 @@ static inline light_outline light_outline_start(light_lobe lobe)
     o.lobe = lobe;
     for (int i = 0; i < AREA_PIECES; i++)
         o.piece[i] = none;
+    for (int i = 0; i < 5; i++)
+        o.arc[i] = none;
+    o.small = true;
     o.closed = false;
     o.out_at = vec3(1.0f, 0.0f, 0.0f);
     o.in_at = vec3(1.0f, 0.0f, 0.0f);
@@ -179,12 +185,35 @@ static inline light_outline light_outline_half(light_outline o, int i, light_arc
     return o;
 }
 
+// Adds half an arc that is not halved by its distances.
+static inline light_outline light_outline_part(light_outline o, int i, light_arc arc)
+{
+    real n0 = sqrt(max(dot(arc.p0, arc.p0), AREA_TINY));
+    real n2 = sqrt(max(dot(arc.p2, arc.p2), AREA_TINY));
+    light_arc a = light_arc_bisected(arc, n0, n2, arc.p0 / n0 - arc.p2 / n2);
+    o.piece[i] = light_arc_first(a);
+    o.piece[i + 1] = light_arc_second(a);
+    return o;
+}
+
+// Is it so short and straight that one piece will do?
+static inline bool light_arc_is_short(light_arc arc, real n0, real n2, vec3 apart)
+{
+    real m = dot(arc.p1, arc.p1);
+    vec3 middle = arc.p1 - 0.5f * sqrt(m) * (arc.p0 / n0 + arc.p2 / n2);
+    return dot(apart, apart) < 0.04f && m > 0.5f * n0 * n2 && m < 2.0f * n0 * n2 &&
+           dot(middle, middle) < 0.01f * m;
+}
+
 // Adds the `i`th arc.
 static inline light_outline light_outline_add(light_outline o, int i, light_arc arc)
 {
     real n0 = sqrt(max(dot(arc.p0, arc.p0), AREA_TINY));
     real n2 = sqrt(max(dot(arc.p2, arc.p2), AREA_TINY));
-    light_arc a = light_arc_bisected(arc, n0, n2, arc.p0 / n0 - arc.p2 / n2);
+    vec3 apart = arc.p0 / n0 - arc.p2 / n2;
+    light_arc a = light_arc_bisected(arc, n0, n2, apart);
+    o.small = o.small && light_arc_is_short(arc, n0, n2, apart);
+    o.arc[i] = arc;
     o = light_outline_half(o, 4 * i, light_arc_first(a));
     return light_outline_half(o, 4 * i + 2, light_arc_second(a));
 }
@@ -241,12 +270,15 @@ static inline vec3 light_piece(light_lobe lobe, vec3 centre, light_arc arc)
 // A point within, from the vector area of the outline and its own mean (section 4).
 static inline vec3 light_outline_centre(light_outline o)
 {
-    int n = o.closed ? AREA_PIECES : AREA_PIECES - 4;
+    int n = o.closed ? AREA_PIECES : o.small ? 4 : AREA_PIECES - 4;
     vec3 turn = vec3(0.0f, 0.0f, 0.0f);
     vec3 mean = vec3(0.0f, 0.0f, 0.0f);
     real way = 0.0f;
     for (int i = 0; i < n; i++) {
-        light_arc a = light_arc_even(o.piece[i]);
+        light_arc a = o.piece[i];
+        if (n == 4)
+            a = o.arc[i];
+        a = light_arc_even(a);
         for (int k = -1; k <= 1; k++) {
             light_rim rim = light_arc_at(a, 0.5f + to_real(k) * AREA_GAUSS);
             vec3 across = (k == 0 ? 8.0f : 5.0f) / 18.0f * cross(rim.s, rim.ds);
@@ -261,25 +293,27 @@ static inline vec3 light_outline_centre(light_outline o)
 
 static inline light_nodes light_nodes_from_outline(light_outline o)
 {
-    int n = o.closed ? AREA_PIECES : AREA_PIECES - 4;
     light_nodes nodes;
     nodes.centre = light_outline_centre(o);
     nodes.area = 0.0f;
-    for (int i = 0; i < AREA_PIECES; i++) {
-        vec3 piece = vec3(0.0f, 0.0f, 1.0f);
-        if (i < n)
-            piece = light_piece(o.lobe, nodes.centre, light_arc_even(o.piece[i]));
+    int n = o.closed ? AREA_PIECES : o.small ? 4 : AREA_PIECES - 4;
+    nodes.used = n + 1;
+    for (int i = 0; i < n; i++) {
+        light_arc a = o.piece[i];
+        if (n == 4)
+            a = o.arc[i];
+        vec3 piece = light_piece(o.lobe, nodes.centre, light_arc_even(a));
         nodes.node[i] = vec2(piece[0] * piece[1], piece[2]);
         nodes.area += piece[0];
     }
     vec2 middle = light_lobe_node(o.lobe, nodes.centre);
-    nodes.node[AREA_PIECES] = vec2(0.25f / 0.75f * nodes.area * middle[0], middle[1]);
+    nodes.node[n] = vec2(0.25f / 0.75f * nodes.area * middle[0], middle[1]);
     nodes.scale = nodes.area > 0.0f ? 0.75f * 2.0f * INV_PI / (1.0f + o.lobe.axis[2]) : 0.0f;
     return nodes;
 }
 
-// Weight and v.h: the light's reflection towards v is L times the sum of weight F(v.h) over all
-// AREA_NODES nodes.
+// Weight and v.h: the light's reflection towards v is L times the sum of weight F(v.h) over the
+// nodes i < nodes.used.
 static inline vec2 light_nodes_at(light_nodes nodes, int i)
 {
     return vec2(nodes.scale * nodes.node[i][0], nodes.node[i][1]);
@@ -290,7 +324,7 @@ static inline vec2 light_nodes_at(light_nodes nodes, int i)
 static inline vec2 light_nodes_ggx(light_nodes nodes)
 {
     vec2 sum = vec2(0.0f, 0.0f);
-    for (int i = 0; i < AREA_NODES; i++) {
+    for (int i = 0; i < nodes.used; i++) {
         vec2 node = light_nodes_at(nodes, i);
         sum = sum + vec2(node[0], node[0] * pow5(1.0f - node[1]));
     }

@@ -179,8 +179,9 @@ static inline light_outline light_outline_tube_end(light_outline o, int i, light
     o.out_at = s.sinks ? light_tube_end_at(e, sink) : o.out_at;
     o.in_at = s.rises ? light_tube_end_at(e, rise) : o.in_at;
     o.closed = o.closed || s.sinks;
-    o = light_outline_half(o, 4 * i, light_tube_arc(o.lobe, e, s.one));
-    return light_outline_half(o, 4 * i + 2, light_tube_arc(o.lobe, e, s.two));
+    o.small = false;
+    o = light_outline_part(o, 4 * i, light_tube_arc(o.lobe, e, s.one));
+    return light_outline_part(o, 4 * i + 2, light_tube_arc(o.lobe, e, s.two));
 }
 
 // The tube as nodes for any Fresnel (light_area.glsl).
