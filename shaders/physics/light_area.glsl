@@ -102,9 +102,9 @@ static inline light_rim light_arc_at(light_arc arc, real x)
 static inline light_arc light_arc_paced(light_arc arc, real mu)
 {
     light_arc a;
-    a.p0 = arc.p0;
-    a.p1 = mu * arc.p1;
-    a.p2 = mu * mu * arc.p2;
+    a.p0 = arc.p0 / mu;
+    a.p1 = arc.p1;
+    a.p2 = mu * arc.p2;
     return a;
 }
 
@@ -132,16 +132,16 @@ static inline light_arc light_arc_bisected(light_arc arc, real n0, real n2, vec3
     real f = 0.5f * dot(apart, apart) + 1e-12f;
     real f1 = dot(apart, arc.p1);
     real w = sqrt(f1 * f1 + n0 * n2 * f * f);
-    real mu = f1 > 0.0f ? (f1 + w) / (n2 * f) : n0 * f / (w - f1);
+    real mu = f1 > 0.0f ? (f1 + w) / (n2 * f) : n0 * f / max(w - f1, AREA_TINY);
     return light_arc_paced(arc, clamp(mu, 1e-5f, 1e5f));
 }
 
 // Paced so that x = 1/2 is farthest from the chord between its ends.
 static inline light_arc light_arc_shouldered(light_arc arc)
 {
-    real n0 = dot(arc.p0, arc.p0);
-    real n2 = dot(arc.p2, arc.p2);
-    return light_arc_paced(arc, sqrt(sqrt(n0 / max(n2, AREA_TINY))));
+    real n0 = max(dot(arc.p0, arc.p0), AREA_TINY);
+    real n2 = max(dot(arc.p2, arc.p2), AREA_TINY);
+    return light_arc_paced(arc, sqrt(sqrt(n0 / n2)));
 }
 
 // Paced so that it starts as fast as it ends.
@@ -151,10 +151,10 @@ static inline light_arc light_arc_even(light_arc arc)
     real n2 = max(dot(arc.p2, arc.p2), AREA_TINY);
     vec3 c0 = cross(arc.p0, arc.p1);
     vec3 c2 = cross(arc.p1, arc.p2);
-    real v0 = n2 * n2 * dot(c0, c0);
-    real v2 = n0 * n0 * dot(c2, c2);
-    real most = max(v0, v2) * 1e-12f + AREA_TINY;
-    return light_arc_paced(arc, sqrt(sqrt((v2 + most) / (v0 + most))));
+    real v0 = sqrt(dot(c0, c0)) / n0;
+    real v2 = sqrt(dot(c2, c2)) / n2;
+    real least = 1e-6f * (v0 + v2) + 1e-20f;
+    return light_arc_paced(arc, sqrt((v2 + least) / (v0 + least)));
 }
 
 // ---- the outline --------------------------------------------------------------------------------

@@ -34,7 +34,14 @@ static inline light_ellipse light_ellipse_from_axes(vec3 centre, vec3 half_x, ve
     real z = e.centre[2];
     h = e.up[2];
     e.cos_t = z >= h ? -1.0f : clamp(-z / max(h, AREA_TINY), -1.0f, 1.0f);
-    e.dark = z <= -h || dot(e.centre, cross(e.up, e.across)) <= 0.0f; // or seen from behind
+    bool faces = dot(e.centre, cross(e.up, e.across)) > 1e-20f;
+    e.dark = z <= -h || !faces;
+    if (e.dark) { // any that is not degenerate
+        e.centre = vec3(0.0f, 0.0f, 1.0f);
+        e.up = vec3(1.0f, 0.0f, 0.0f);
+        e.across = vec3(0.0f, 1.0f, 0.0f);
+        e.cos_t = -1.0f;
+    }
     return e;
 }
 
@@ -72,7 +79,8 @@ static inline light_ellipse_cone light_ellipse_cone_from(light_ellipse e)
     real k = light_root(dot(c0, c0) - g00 - g11, minor - dot(x02, x02) - dot(x12, x12), det * det);
     vec3 x = vec3(g01 * g12 - (g11 + k) * g02, g01 * g02 - (g00 + k) * g12,
                   k * (g00 + g11 + k) + minor);
-    x = x / sqrt(max(x[2] * x[2] - x[0] * x[0] - x[1] * x[1], 1e-7f * x[2] * x[2]));
+    x = x / sqrt(max(x[2] * x[2] - x[0] * x[0] - x[1] * x[1],
+                     1e-7f * x[2] * x[2] + AREA_TINY));
     vec3 shift = c0 + (x[0] * c1 + x[1] * c2) / (1.0f + x[2]);
     real scale = 1.0f / sqrt(k);
     vec3 b1 = scale * (c1 + x[0] * shift);

@@ -315,6 +315,20 @@ static void odd_light(uint *seed, area_case *c, int kind)
         c->centre[2] = c->x[2] = c->y[2] = 0;
 }
 
+static bool are_finite(const area_case *c)
+{
+    vec3 o = to_vec3(c->centre), x = to_vec3(c->x), y = to_vec3(c->y), v = to_vec3(c->v);
+    float ax = (float)c->ax, ay = (float)c->ay;
+    light_nodes n = c->kind == AREA_DISK ? light_disk_nodes(o, x, y, v, ax, ay)
+                    : c->kind == AREA_TUBE
+                        ? light_tube_nodes(o, x, (float)c->radius, v, ax, ay)
+                        : light_quad_nodes(o - x - y, o + x - y, o + x + y, o - x + y, v, ax, ay);
+    bool all = true;
+    for (int i = 0; i < n.used; i++)
+        all = all && isfinite(light_nodes_at(n, i)[0]) && isfinite(light_nodes_at(n, i)[1]);
+    return all;
+}
+
 static void no_light_breaks_it(void **state)
 {
     (void)state;
@@ -324,6 +338,7 @@ static void no_light_breaks_it(void **state)
         odd_light(&seed, &c, i % 3);
         vec2 x = lobe(&c);
         assert_true(x[0] >= 0 && x[0] <= 1 && x[1] >= 0 && x[1] <= x[0]);
+        assert_true(are_finite(&c));
         double f = form_factor(&c);
         assert_true(f >= 0 && f <= 1);
     }
