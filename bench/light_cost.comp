@@ -38,6 +38,7 @@ void main()
     vec3 v = normalize(vec3(u.y, u.z - 0.5, 0.1 + u.z));
     vec4 m = fetch_ltc(v.z, roughness);
     vec2 dfg = textureLod(dfg_table, vec2(v.z, roughness), 0.0).xy;
+    light_ggx ggx = light_ggx_from(v, alpha, alpha);
     vec2 sum = vec2(0.0);
     for (uint i = 0; i < LIGHTS; i++) {
         u = fract(u + vec3(0.8191725, 0.6710436, 0.5497005));
@@ -61,7 +62,7 @@ void main()
         else if (METHOD == 5)
             sum += light_ltc_cap(cap, v, fetch_ltc(v.z, u.x), textureLod(dfg_table, u.xy, 0.0).xy);
         else if (METHOD == 6)
-            sum += light_cap_ggx(cap, v, alpha, alpha);
+            sum += light_cap_lobe(cap, ggx);
         else if (METHOD == 7)
             sum += light_representative_tube(at, side, cap.sin_s, v, alpha);
         else if (METHOD == 8)

@@ -12,7 +12,8 @@
 static inline vec2 light_sky_node(light_cone cone, vec3 v, vec3 stretch, real rho, real cos_t,
                                   real sin_t)
 {
-    vec3 q = rho * (cos_t * cone.z1 + sin_t * cone.z2);
+    vec2 d = light_cone_disc(cone, rho * cos_t, rho * sin_t);
+    vec3 q = d[0] * cone.n1 + d[1] * cone.n2;
     real s3 = sqrt(max(1.0f - dot(q, q), 1e-9f));
     vec3 h = stretch * (q + s3 * cone.axis);
     real h1 = 1.0f / sqrt(dot(h, h));
@@ -47,8 +48,8 @@ static inline vec2 light_sky_ggx(vec3 v, real ax, real ay)
     sky.sin_s = 1.0f;
     sky.cos_s = 0.0f;
     real m = max(ax, ay);
-    light_cone cone =
-        light_cone_from_cap(sky, v, v[2], vec3(m / ax, m / ay, m), m * m * m / (ax * ay));
+    light_cone cone = light_cone_from_cap(sky, light_rim_side(sky.axis), v, v[2],
+                                          vec3(m / ax, m / ay, m), m * m * m / (ax * ay));
     vec3 stretch = vec3(ax, ay, 1.0f);
     // z = .1127, .5, .8873 of Gauss-Legendre; rho = sqrt(1 - z^2); the weight is 2 z w.
     vec2 outer = light_sky_ring(cone, v, stretch, 0.99362887f, 0.96592583f, 0.25881905f);

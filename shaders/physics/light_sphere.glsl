@@ -11,7 +11,7 @@
 // The derivation is in docs/sphere-light.md; its section numbers stand below.  In brief: the
 // half vectors of a cap fill an elliptic cone (1), a stretch of space turns GGX's visible
 // normals into a clamped cosine (2), and the cosine's integral over an elliptic cone is the
-// area of an ellipse (3).  Shadowing and Fresnel are averaged over that ellipse by nine
+// area of an ellipse (3).  Shadowing and Fresnel are averaged over that ellipse by seven
 // points; what the horizon cuts off, the points leave out (4, 5).
 #ifndef AG_PHYSICS_LIGHT_SPHERE_GLSL
 #define AG_PHYSICS_LIGHT_SPHERE_GLSL
@@ -26,49 +26,73 @@ STRUCT(light_cap) {
     real cos_s;
 };
 
-// The quadratic form of (tau, sigma, s3): positive above the horizon, or within the light.
+// The lobe seen from v, the same for every light.
+STRUCT(light_ggx) {
+    vec3 v;
+    vec3 stretch;   // ax, ay, 1
+    vec3 unstretch; // 1 / (ax, ay, 1), times the larger alpha
+    real volume;    // the product of unstretch
+    real larger;    // alpha
+    real length_v;  // of the stretched v
+    vec3 square;    // |Sl|^2 = ax^2 l.l + (ay^2 - ax^2) l.y^2 + (1 - ax^2) l.z^2
+    real inverse_z; // 1 / v.z
+};
+
+// The part of a quadratic form of (tau, sigma, s3) that is even in sigma.
 STRUCT(light_form) {
     real tt;
     real ss;
     real aa;
-    real ts;
     real ta;
-    real sa;
+    real odd; // sa (along.across): s3 is not even
 };
 
-// The elliptic cone of stretched half vectors: unit axis, two conjugate half diameters z1, z2 of
-// its ellipse (the cone's section with the unit sphere, seen along the axis), and what leads
-// from an angle on the light's rim to one on the ellipse: a Lorentz boost, then a triangle.
+// On the lines sigma = +-s, where s3^2 + along^2 tau^2 = A, such a form is one of tau and s3 alone:
+// tt tau^2 + 2 ta tau s3 + aa s3^2.  Here it is multiplied by A.
+STRUCT(light_line) {
+    real tt;
+    real ta;
+    real aa;
+};
+
+// The elliptic cone of stretched half vectors: unit axis, two conjugate half diameters n1, n2 of
+// its section with the plane at distance 1, and what leads from an angle on the light's rim to one
+// on the unit disc (a Lorentz boost, then a triangle) and from there to the unit sphere.
 STRUCT(light_cone) {
     vec3 axis;
-    vec3 z1;
-    vec3 z2;
-    vec3 boost;
-    vec3 triangle; // r11, r12, r22
+    vec3 n1;
+    vec3 n2;
+    vec3 boost;    // its two components, and 1 / (1 + the third)
+    vec3 triangle; // r11^2, r11 r12, r11 r22
+    vec3 inverse;  // 1 / r11, r12 / (r11 r22), 1 / r22
     real square;   // the axis' eigenvalue
-    real area;     // of the ellipse, over pi sin_s^2
+    real area;     // of the ellipse that the sphere's part is along the axis, over pi sin_s^2
 };
 
 // The visible part of that ellipse in three slices across it, ready to be sampled.
 STRUCT(light_lens) {
-    vec3 v;
-    vec3 stretch; // ax, ay, 1
-    vec3 along;   // half vectors are tau along + sigma across + s3 axis
-    vec3 across;
-    vec3 axis;
-    vec3 metric; // along^2, along.across, across^2 before the stretch
-    real length_v;
-    real width;  // the slices stand at sigma = 0, +-width
-    vec3 low;    // their ends in tau, for sigma = -width, 0, width
-    vec3 high;
+    vec4 along; // half vectors are tau along + sigma across + s3 axis; w = the dot product with v
+    vec4 across;
+    vec4 axis;
+    vec3 metric;        // along^2, along.across, across^2 before the stretch
+    light_form horizon; // positive above it
+    real lift;          // 1 - tau^2 - sigma^2 - lift horizon: positive within the light
+    real width;         // the slices stand at sigma = 0, +-width
+    vec2 low;           // their ends in tau: outer, middle
+    vec2 high;
     real scale;
 };
 
 static const real LIGHT_TINY = 1e-30f;
 
-// Gauss-Legendre on a slice, and the second-kind Chebyshev points across the slices.
-static const real LIGHT_NODE = 0.77459667f;  // sqrt(3 / 5)
-static const real LIGHT_SLICE = 0.70710678f; // cos(pi / 4)
+// Seven points of the unit disc: its centre and a hexagon, of which two stand on the diameter
+// sigma = 0 and four on the chords sigma = +-slice, at +-pair of the half chord.  The weights are
+// those of a slice's half length.  Section 5.
+static const real LIGHT_RING = 0.852f;
+static const real LIGHT_SLICE = 0.73785364f;        // ring sin 60
+static const real LIGHT_PAIR = 0.63114782f;         // ring cos 60 / sqrt(1 - slice^2)
+static const real LIGHT_RING_WEIGHT = 0.11479939f;  // 1 / (12 ring^2)
+static const real LIGHT_SLICE_WEIGHT = 0.17008306f; // 1 / (12 ring^2 sqrt(1 - slice^2))
 
 // `to_centre` in metres.  On the sphere or in it, the hemisphere towards its centre: the cap is
 // continuous everywhere but at the centre (no choice of hemispheres is, on a full ball), and the
@@ -123,43 +147,50 @@ static inline real light_cap_cosine(light_cap cap)
 }
 
 // The positive root of k^3 - a k^2 + b k - c, whose other roots are real and not positive, c >= 0.
-// The first guess lies within [3/4, 1] of the root; a step of Laguerre's and one of Newton's
-// leave nothing to float.
+// The first guess lies within [.9, 1.2] of the root; a step of Halley's and one of Newton's leave
+// 4e-6 of it at most.
 static inline real light_root(real a, real b, real c)
 {
-    real top = (a + 2.0f * sqrt(max(a * a - 3.0f * b, 0.0f))) / 3.0f; // not below the root
-    // k^2 (top - a) + b k - c has its positive root not above it; a is not above it either.
-    real w = max(top - a, LIGHT_TINY);
+    real top = (a + 2.0f * sqrt(max(a * a - 3.0f * b, 0.0f))) * (1.0f / 3.0f); // not below the root
+    // k^2 (top - a) + b k - c has its positive root within [3/4, 1] of it.
+    real w = top - a + LIGHT_TINY;
     real r = sqrt(max(b * b + 4.0f * c * w, 0.0f));
-    real k = b > 0.0f ? 2.0f * c / (b + r) : 0.5f * (r - b) / w;
-    k = max(min(k, max(top, a)), max(a, LIGHT_TINY));
-    real p = ((k - a) * k + b) * k - c;
-    real d = (3.0f * k - 2.0f * a) * k + b;
-    r = sqrt(max(4.0f * d * d - 12.0f * p * (3.0f * k - a), 0.0f));
-    k = k - 3.0f * p / max(d + r, LIGHT_TINY);
-    p = ((k - a) * k + b) * k - c;
-    d = (3.0f * k - 2.0f * a) * k + b;
+    bool is_up = b > 0.0f;
+    real over = is_up ? 2.0f * c : r - b;
+    real under = is_up ? b + r + LIGHT_TINY : 2.0f * w;
+    real k = max(min(1.2f * over / under, top), max(a, LIGHT_TINY));
+    real p = k * k * (k - a) + (b * k - c);
+    real d = 3.0f * k * k + (b - 2.0f * a * k);
+    k = k - p * d / max(d * d - p * (3.0f * k - a), LIGHT_TINY);
+    p = k * k * (k - a) + (b * k - c);
+    d = 3.0f * k * k + (b - 2.0f * a * k);
     return max(k - p / max(d, LIGHT_TINY), LIGHT_TINY);
 }
 
-// The basis of a cap's rim: c0 + c1 cos t + c2 sin t, t = 0 at its highest point.
-static inline vec3 light_rim_up(vec3 axis)
+// The basis of a cap's rim is c0 + c1 cos t + c2 sin t, t = 0 at its highest point: c2 is
+// horizontal, and c1 = cross(c2, axis).
+static inline vec3 light_rim_side(vec3 axis)
 {
-    real h2 = axis[0] * axis[0] + axis[1] * axis[1];
-    real h = sqrt(h2);
-    return h > 1e-7f ? vec3(-axis[2] * axis[0] / h, -axis[2] * axis[1] / h, h)
-                     : vec3(-axis[2], 0.0f, 0.0f);
+    real h = sqrt(axis[0] * axis[0] + axis[1] * axis[1]);
+    real inverse = 1.0f / max(h, 1e-7f);
+    return h > 1e-7f ? vec3(inverse * axis[1], -inverse * axis[0], 0.0f) : vec3(0.0f, -1.0f, 0.0f);
 }
 
-// The cone of a cap under v (section 3).  `reach` = 1 + cos of the angle between the cap's rim and
-// -v, as cos_s + axis.v; `unstretch` = 1 / (ax, ay, 1) times any factor, `volume` its product.
-static inline light_cone light_cone_from_cap(light_cap cap, vec3 v, real reach, vec3 unstretch,
-                                             real volume)
+static inline vec3 light_rim_up(vec3 axis)
 {
-    vec3 up = light_rim_up(cap.axis);
+    return cross(light_rim_side(axis), axis);
+}
+
+// The cone of a cap under v (section 3).  `side` = its light_rim_side; `reach` = 1 + cos of the
+// angle between the cap's rim and -v, as cos_s + axis.v; `unstretch` = 1 / (ax, ay, 1) times any
+// factor, `volume` its product.
+static inline light_cone light_cone_from_cap(light_cap cap, vec3 side, vec3 v, real reach,
+                                             vec3 unstretch, real volume)
+{
+    vec3 wide = cap.sin_s * unstretch;
     vec3 c0 = unstretch * (v + cap.cos_s * cap.axis);
-    vec3 c1 = unstretch * (cap.sin_s * up);
-    vec3 c2 = unstretch * (cap.sin_s * cross(cap.axis, up));
+    vec3 c1 = wide * cross(side, cap.axis);
+    vec3 c2 = wide * side;
     real g00 = dot(c1, c1);
     real g11 = dot(c2, c2);
     real g01 = dot(c1, c2);
@@ -175,278 +206,331 @@ static inline light_cone light_cone_from_cap(light_cap cap, vec3 v, real reach, 
     real c = det * cap.sin_s * cap.sin_s;
     c = c * c;
     real k = light_root(a, b, c);
+    real inverse_k = 1.0f / k;
+    real others = k * k + k * max(k - a, 0.0f) + c * inverse_k; // (k + k1) (k + k2)
+    real scale = sqrt(inverse_k);
 
+    // A column of the adjugate of G + k J, which is (k + k1) (k + k2) x x^T; `length` = its
+    // Lorentz length.
+    vec3 column = vec3(g01 * g12 - (g11 + k) * g02, g01 * g02 - (g00 + k) * g12,
+                       k * (g00 + g11 + k) + minor);
+    real length = sqrt(max(others * column[2], LIGHT_TINY));
+    real inverse_length = 1.0f / length;
+    real fold = 1.0f / (length + column[2]);
+    vec3 tilt = column[0] * c1 + column[1] * c2;
+    vec3 shift = c0 + fold * tilt;
     light_cone cone;
     cone.square = k;
-    cone.area = det / sqrt(k * (k * k + k * max(k - a, 0.0f) + c / k));
-    vec3 x = vec3(g01 * g12 - (g11 + k) * g02, g01 * g02 - (g00 + k) * g12,
-                  k * (g00 + g11 + k) + minor);
-    x = x / sqrt(max(x[2] * x[2] - x[0] * x[0] - x[1] * x[1], 1e-7f * x[2] * x[2]));
-    cone.boost = x;
-    vec3 shift = c0 + (x[0] * c1 + x[1] * c2) / (1.0f + x[2]);
-    real scale = 1.0f / sqrt(k);
-    vec3 b1 = scale * (c1 + x[0] * shift);
-    vec3 b2 = scale * (c2 + x[1] * shift);
-    vec3 b3 = x[0] * c1 + x[1] * c2 + x[2] * c0;
-    cone.axis = b3 / sqrt(max(dot(b3, b3), LIGHT_TINY));
-    real r11 = sqrt(1.0f + dot(b1, b1));
-    real r12 = dot(b1, b2) / r11;
-    real r22 = sqrt(max(1.0f + dot(b2, b2) - r12 * r12, LIGHT_TINY));
-    cone.z1 = b1 / r11;
-    cone.z2 = (b2 - r12 * cone.z1) / r22;
-    cone.triangle = vec3(r11, r12, r22);
+    cone.boost = vec3(inverse_length * column[0], inverse_length * column[1], length * fold);
+    cone.n1 = scale * (c1 + cone.boost[0] * shift);
+    cone.n2 = scale * (c2 + cone.boost[1] * shift);
+    cone.axis = (scale * inverse_length) * (tilt + column[2] * c0);
+
+    // Cholesky of 1 + N^T N, the determinant of which is (k + k1) (k + k2) / k^2.
+    real r11_2 = 1.0f + dot(cone.n1, cone.n1);
+    real r11_r12 = dot(cone.n1, cone.n2);
+    real r11_r22 = sqrt(others) * inverse_k;
+    real r11 = sqrt(r11_2);
+    real inverse = 1.0f / (r11 * r11_r22);
+    cone.triangle = vec3(r11_2, r11_r12, r11_r22);
+    cone.inverse = inverse * vec3(r11_r22, r11_r12, r11_2);
+    cone.area = det * scale * inverse_k * r11 * inverse;
     return cone;
 }
 
-// The point of the ellipse's unit disc that belongs to the angle (cos_t, sin_t) on the rim.
+// The point of the unit disc (z1, z2) across the axis, in multiples of n1 and n2.
+static inline vec2 light_cone_disc(light_cone cone, real z1, real z2)
+{
+    return vec2(cone.inverse[0] * z1 - cone.inverse[1] * z2, cone.inverse[2] * z2);
+}
+
+// Towards the point of the unit disc's rim that belongs to the angle (cos_t, sin_t) on the light's.
 static inline vec2 light_cone_rim(light_cone cone, real cos_t, real sin_t)
 {
     vec3 x = cone.boost;
-    real f = (x[0] * cos_t + x[1] * sin_t) / (1.0f + x[2]) - 1.0f;
+    real f = (x[0] * cos_t + x[1] * sin_t) * x[2] - 1.0f;
     real y1 = cos_t + x[0] * f;
     real y2 = sin_t + x[1] * f;
     real z1 = cone.triangle[0] * y1 + cone.triangle[1] * y2;
     real z2 = cone.triangle[2] * y2;
-    return vec2(z1, z2) / sqrt(max(z1 * z1 + z2 * z2, LIGHT_TINY));
+    return vec2(z1, z2);
 }
 
 // Where rim and horizon meet on the unit disc: at the angles +-gamma from the unit vector d.
 // Returns d, cos(gamma), sin(gamma); gamma = pi for a light wholly up, d then points upwards.
-static inline vec4 light_cone_meeting(light_cone cone, light_cap cap)
+static inline vec4 light_cone_meeting(light_cone cone, light_cap cap, vec3 side)
 {
-    real h = sqrt(cap.axis[0] * cap.axis[0] + cap.axis[1] * cap.axis[1]);
+    real h = side[0] * cap.axis[1] - side[1] * cap.axis[0];
     real cos_t = clamp(-cap.axis[2] * cap.cos_s / max(cap.sin_s * h, LIGHT_TINY), -1.0f, 1.0f);
     real sin_t = sqrt(1.0f - cos_t * cos_t);
     vec2 p = light_cone_rim(cone, cos_t, sin_t);
     vec2 q = light_cone_rim(cone, cos_t, -sin_t);
-    vec2 gap = 0.5f * (p - q);
-    vec2 mid = 0.5f * (p + q);
-    real sin_g = sqrt(gap[0] * gap[0] + gap[1] * gap[1]);
-    real cos_g = sqrt(mid[0] * mid[0] + mid[1] * mid[1]);
+    real length_p = sqrt(p[0] * p[0] + p[1] * p[1]);
+    real length_q = sqrt(q[0] * q[0] + q[1] * q[1]);
+    real inverse = 1.0f / max(length_p * length_q, LIGHT_TINY);
+    vec2 gap = length_q * p - length_p * q;
+    vec2 mid = length_q * p + length_p * q;
+    real half_inverse = 0.5f * inverse;
+    real sin_g = half_inverse * sqrt(gap[0] * gap[0] + gap[1] * gap[1]);
+    real cos_g = half_inverse * sqrt(mid[0] * mid[0] + mid[1] * mid[1]);
     real turn = q[0] * p[1] - q[1] * p[0]; // sin(2 gamma); fails where the points fall together
     cos_g = (sin_g > 0.1f ? turn : cos_t) < 0.0f ? -cos_g : cos_g;
+    p = (inverse * length_q) * p;
     return vec4(p[0] * cos_g + p[1] * sin_g, p[1] * cos_g - p[0] * sin_g, cos_g, sin_g);
 }
 
-// Positive above the horizon: 2 h.z (v.h) - v.z h.h.
-static inline light_form light_form_horizon(light_lens lens)
+// A half vector, and its dot product with v.
+static inline vec4 light_half(light_ggx lobe, vec3 stretched)
 {
-    vec3 d = lens.along;
-    vec3 s = lens.across;
-    vec3 a = lens.axis;
-    real z = lens.v[2];
-    real vd = dot(lens.v, d);
-    real vs = dot(lens.v, s);
-    real va = dot(lens.v, a);
+    vec3 h = lobe.stretch * stretched;
+    return vec4(h[0], h[1], h[2], dot(h, lobe.v));
+}
+
+// Of the half vectors.
+static inline real light_half_dot(vec4 a, vec4 b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// Positive above the horizon: 2 h.z (v.h) / v.z - h.h.
+static inline light_form light_form_horizon(light_lens lens, real inverse_z)
+{
+    vec4 d = lens.along;
+    vec4 s = lens.across;
+    vec4 a = lens.axis;
+    real dz = inverse_z * d[2];
+    real sz = inverse_z * s[2];
+    real az = inverse_z * a[2];
     light_form f;
-    f.tt = 2.0f * d[2] * vd - z * dot(d, d);
-    f.ss = 2.0f * s[2] * vs - z * dot(s, s);
-    f.aa = 2.0f * a[2] * va - z * dot(a, a);
-    f.ts = d[2] * vs + s[2] * vd - z * dot(d, s);
-    f.ta = d[2] * va + a[2] * vd - z * dot(d, a);
-    f.sa = s[2] * va + a[2] * vs - z * dot(s, a);
+    f.tt = 2.0f * dz * d[3] - light_half_dot(d, d);
+    f.ss = 2.0f * sz * s[3] - light_half_dot(s, s);
+    f.aa = 2.0f * az * a[3] - light_half_dot(a, a);
+    f.ta = dz * a[3] + az * d[3] - light_half_dot(d, a);
+    f.odd = (sz * a[3] + az * s[3] - light_half_dot(s, a)) * lens.metric[1];
     return f;
 }
 
-// Positive within the light: 1 - tau^2 - sigma^2 less `lift` times the horizon's form.
-static inline light_form light_form_rim(vec3 metric, light_form horizon, real lift)
+static inline light_line light_line_horizon(light_lens lens, real s2)
 {
-    light_form f;
-    f.tt = metric[0] - 1.0f - lift * horizon.tt;
-    f.ss = metric[2] - 1.0f - lift * horizon.ss;
-    f.aa = 1.0f - lift * horizon.aa;
-    f.ts = metric[1] - lift * horizon.ts;
-    f.ta = -lift * horizon.ta;
-    f.sa = -lift * horizon.sa;
-    return f;
+    light_form f = lens.horizon;
+    real a = 1.0f - s2 * lens.metric[2];
+    light_line line;
+    line.tt = a * f.tt + s2 * f.ss * lens.metric[0];
+    line.ta = a * f.ta - s2 * f.odd;
+    line.aa = a * f.aa + s2 * f.ss;
+    return line;
 }
 
-// Where the line sigma = 0 crosses a form's zero, as tau: upwards (into the positive) or
-// downwards; the disc's rim where it does not cross within.
-static inline real light_form_cross(light_form f, real along2, bool upwards)
+// 1 - tau^2 - sigma^2 - lift horizon.
+static inline light_line light_line_rim(light_lens lens, light_line horizon, real s2)
 {
-    real rim = 1.0f / sqrt(max(1.0f - along2, 1e-12f)); // tau = 1 as x = tau / s3
-    real way = upwards ? -1.0f : 1.0f;                  // f(x) = tt x^2 + 2 ta x + aa
-    real b = -way * f.ta;
-    real disc = b * b - f.tt * f.aa;
-    real r = sqrt(max(disc, 0.0f));
-    // In units of way x the wanted root is the descending one.
-    real x = b >= 0.0f ? f.aa / max(b + r, LIGHT_TINY) : (b - r) / min(f.tt, -LIGHT_TINY);
-    x = b < 0.0f && f.tt >= 0.0f ? rim : x;
-    x = disc < 0.0f ? (f.aa > 0.0f ? rim : -rim) : x;
-    x = clamp(x, -rim, rim);
-    return way * x / sqrt(1.0f + x * x * along2);
+    light_line line;
+    line.tt = (1.0f - s2) * lens.metric[0] - (1.0f - s2 * lens.metric[2]) - lens.lift * horizon.tt;
+    line.ta = -lens.lift * horizon.ta;
+    line.aa = 1.0f - s2 - lens.lift * horizon.aa;
+    return line;
 }
 
-// One step of Newton's along tau; `way` = the sign of the form's slope at the crossing.
-static inline real light_form_refine(light_form f, vec3 metric, real t, real s, real way)
+// Where a line's form falls through zero as tau grows; +-1 where it does not.
+static inline real light_line_fall(light_line line, real along2, real a)
 {
-    real a2 = 1.0f - t * t * metric[0] - 2.0f * t * s * metric[1] - s * s * metric[2];
-    real a = sqrt(max(a2, 1e-6f));
-    real ft = f.tt * t + f.ts * s + f.ta * a;
-    real fs = f.ts * t + f.ss * s + f.sa * a;
-    real fa = f.ta * t + f.sa * s + f.aa * a;
-    real da = -(t * metric[0] + s * metric[1]) / a;
-    real slope = way * (ft + fa * da);
-    real bend = way * (f.tt + 2.0f * f.ta * da + f.aa * da * da - fa * (metric[0] + da * da) / a);
-    real value = way * (ft * t + fs * s + fa * a);
-    real step = value / max(slope + sqrt(max(slope * slope - value * bend, 0.0f)), LIGHT_TINY);
-    real rim = sqrt(max(1.0f - s * s, 0.0f));
-    return clamp(t - clamp(step, -0.5f, 0.5f), -rim, rim);
+    real square = line.ta * line.ta - line.tt * line.aa;
+    real r = sqrt(max(square, 0.0f));
+    bool is_far = line.ta > 0.0f;
+    real x = is_far ? r + line.ta : line.aa; // tau / s3 = x / y
+    real y = is_far ? -line.tt : r - line.ta;
+    real t = x * sqrt(a / max(y * y + x * x * along2, LIGHT_TINY));
+    real end = square < 0.0f && line.aa <= 0.0f ? -1.0f : 1.0f;
+    bool falls = square >= 0.0f && y >= 0.0f;
+    return falls ? t : end;
 }
 
-// Of the form that bounds the slice there.
-static inline real light_form_end(light_form first, light_form second, bool is_first, vec3 metric,
-                                  real t, real s, real way)
+// The ends of the slices at +-s: below and above, either the horizon bounds them or the light's
+// rim.
+static inline vec2 light_lens_ends(light_lens lens, real s, bool on_ground, bool on_rim)
 {
-    light_form f;
-    f.tt = is_first ? first.tt : second.tt;
-    f.ss = is_first ? first.ss : second.ss;
-    f.aa = is_first ? first.aa : second.aa;
-    f.ts = is_first ? first.ts : second.ts;
-    f.ta = is_first ? first.ta : second.ta;
-    f.sa = is_first ? first.sa : second.sa;
-    return light_form_refine(f, metric, t, s, way);
-}
-
-// The visible part of the light's ellipse between the horizon and the rim: both are taken for
-// circular arcs through the two points where they meet, at (tau, sigma) = (cos_g, +-sin_g), and
-// through where they cross sigma = 0, at tau = `low` and `high`; then refined.  Section 5.
-static inline light_lens light_lens_slice(light_lens lens, light_form horizon, light_form rim,
-                                          real cos_g, real sin_g)
-{
-    real low = light_form_cross(horizon, lens.metric[0], true);
-    real high = max(light_form_cross(rim, lens.metric[0], false), low);
-
-    // Sagitta, curvature and half width of the arcs.
-    real rise = high - cos_g;
-    real sink = cos_g - low;
-    real rise2 = sin_g * sin_g + rise * rise;
-    real sink2 = sin_g * sin_g + sink * sink;
-    real rise_k = 2.0f * rise / max(rise2, 1e-12f);
-    real sink_k = 2.0f * sink / max(sink2, 1e-12f);
-    real abs_rise = max(rise, -rise);
-    real abs_sink = max(sink, -sink);
-    real rise_w = abs_rise > sin_g ? 0.5f * rise2 / max(abs_rise, 1e-6f) : sin_g;
-    real sink_w = abs_sink > sin_g ? 0.5f * sink2 / max(abs_sink, 1e-6f) : sin_g;
-    real width = min(max(rise > 0.0f ? rise_w : sin_g, sink > 0.0f ? sink_w : sin_g), 1.0f);
-
-    real s = LIGHT_SLICE * width;
     real s2 = s * s;
-    real rise_c = 1.0f + sqrt(max(1.0f - rise_k * rise_k * s2, 0.0f));
-    real sink_c = 1.0f + sqrt(max(1.0f - sink_k * sink_k * s2, 0.0f));
-    bool on_rim = s <= rise_w;
-    bool on_horizon = s <= sink_w;
-    // Beyond its half width an arc's other half bounds the slice on both sides.
-    real t1 = on_rim ? high - rise_k * s2 / rise_c : low + sink_c / max(sink_k, 1e-6f);
-    real t0 = on_horizon ? low + sink_k * s2 / sink_c : high - rise_c / max(rise_k, 1e-6f);
-    lens.low = vec3(light_form_end(horizon, rim, on_horizon, lens.metric, t0, -s, 1.0f), low,
-                    light_form_end(horizon, rim, on_horizon, lens.metric, t0, s, 1.0f));
-    lens.high = vec3(light_form_end(rim, horizon, on_rim, lens.metric, t1, -s, -1.0f), high,
-                     light_form_end(rim, horizon, on_rim, lens.metric, t1, s, -1.0f));
+    real along2 = lens.metric[0];
+    real a = max(1.0f - s2 * lens.metric[2], 1e-6f);
+    light_line ground = light_line_horizon(lens, s2);
+    light_line rim = light_line_rim(lens, ground, s2);
+    light_line below;
+    below.tt = on_ground ? ground.tt : rim.tt;
+    below.ta = on_ground ? -ground.ta : -rim.ta;
+    below.aa = on_ground ? ground.aa : rim.aa;
+    light_line above;
+    above.tt = on_rim ? rim.tt : ground.tt;
+    above.ta = on_rim ? rim.ta : ground.ta;
+    above.aa = on_rim ? rim.aa : ground.aa;
+    real end = sqrt(1.0f - s2);
+    real low = clamp(-light_line_fall(below, along2, a), -end, end);
+    real high = clamp(light_line_fall(above, along2, a), -end, end);
+    return vec2(low, max(high, low));
+}
+
+// The half width of a circular arc through (cos_g, +-sin_g) that rises by `rise` between.
+static inline real light_lens_half_width(real rise, real sin_g)
+{
+    real size = max(rise, -rise);
+    return size > sin_g ? 0.5f * (size + sin_g * sin_g / max(size, 1e-6f)) : sin_g;
+}
+
+// The visible part of the light's ellipse between the horizon and the rim, which meet at
+// (tau, sigma) = (cos_g, +-sin_g).  Beyond these points one of the two bounds it on both sides,
+// and is taken for a circular arc to say how far.  Section 5.
+static inline light_lens light_lens_slice(light_lens lens, real cos_g, real sin_g)
+{
+    vec2 middle = light_lens_ends(lens, 0.0f, true, true);
+    real rise = middle[1] - cos_g;
+    real sink = cos_g - middle[0];
+    real rim = light_lens_half_width(rise, sin_g);
+    real ground = light_lens_half_width(sink, sin_g);
+    real width = min(max(rise > 0.0f ? rim : sin_g, sink > 0.0f ? ground : sin_g), 1.0f);
+    real s = LIGHT_SLICE * width;
+    vec2 outer = light_lens_ends(lens, s, s <= ground, s <= rim);
+    lens.low = vec2(outer[0], middle[0]);
+    lens.high = vec2(outer[1], middle[1]);
     lens.width = s;
     lens.scale *= width;
     return lens;
 }
 
-// What light_lens_node samples.  v.z > 0; alpha in (0, 1].
-static inline light_lens light_lens_from_cap(light_cap cap, vec3 v, real ax, real ay)
+// v.z > 0; alpha in (0, 1].
+static inline light_ggx light_ggx_from(vec3 v, real ax, real ay)
+{
+    light_ggx lobe;
+    lobe.v = v;
+    lobe.stretch = vec3(ax, ay, 1.0f);
+    lobe.larger = max(ax, ay);
+    lobe.unstretch = vec3(lobe.larger / ax, lobe.larger / ay, lobe.larger);
+    lobe.volume = lobe.unstretch[0] * lobe.unstretch[1] * lobe.larger;
+    vec3 sv = lobe.stretch * v;
+    lobe.length_v = sqrt(dot(sv, sv));
+    lobe.square = vec3(ax * ax, ay * ay - ax * ax, 1.0f - ax * ax);
+    lobe.inverse_z = 1.0f / v[2];
+    return lobe;
+}
+
+// What light_lens_node samples.
+static inline light_lens light_lens_from_cap(light_cap cap, light_ggx lobe)
 {
     // Nothing of the light is up: any light that is, for nothing.
     bool hidden = cap.axis[2] <= -cap.sin_s;
     vec3 axis = hidden ? vec3(0.0f, 0.0f, 1.0f) : cap.axis;
+    vec3 v = lobe.v;
     real s2 = cap.sin_s * cap.sin_s;
+    real depth = s2 / (1.0f + cap.cos_s); // 1 - cos_s
     vec3 sum = v + axis;
-    real reach = 0.5f * dot(sum, sum) - s2 / (1.0f + cap.cos_s); // cos_s + axis.v
+    real reach = 0.5f * dot(sum, sum) - depth; // cos_s + axis.v
 
     // Another cap with the same part above the horizon's circle, or more: its axis is raised so
     // far that the axis is up and -v well outside.  Section 4.
-    real lift = max(max(-axis[2], s2 / (1.0f + cap.cos_s) - reach / v[2]), 0.0f);
+    real lift = max(max(-axis[2], depth - reach * lobe.inverse_z), 0.0f);
     real grow = lift * (2.0f * axis[2] + lift);
     real inverse = 1.0f / sqrt(1.0f + grow);
-    real shrink = max(1.0f + grow / max(s2, LIGHT_TINY), 0.0f) * inverse * inverse;
+    real inverse_s2 = 1.0f / max(s2, LIGHT_TINY);
+    real shrink = max(1.0f + grow * inverse_s2, 0.0f);
+    vec3 side = light_rim_side(axis);
     light_cap raised;
     raised.axis = inverse * (axis + vec3(0.0f, 0.0f, lift));
     raised.cos_s = inverse * cap.cos_s;
-    raised.sin_s = cap.sin_s * sqrt(shrink);
+    raised.sin_s = inverse * cap.sin_s * sqrt(shrink);
     real raised_reach = inverse * (reach + lift * v[2]);
+    light_cone cone =
+        light_cone_from_cap(raised, side, v, raised_reach, lobe.unstretch, lobe.volume);
 
-    real m = max(ax, ay) / max(sqrt(dot(sum, sum)), 0.01f); // any; keeps numbers near 1
-    light_cone cone = light_cone_from_cap(raised, v, raised_reach, vec3(m / ax, m / ay, m),
-                                          m * m * m / (ax * ay));
-
-    vec4 meeting = light_cone_meeting(cone, raised);
-    real cos_g = meeting[2];
-    real sin_g = meeting[3];
-    vec2 d = vec2(meeting[0], meeting[1]);
-
+    vec4 meeting = light_cone_meeting(cone, raised, side);
+    vec2 d = light_cone_disc(cone, meeting[0], meeting[1]);
+    vec2 s = light_cone_disc(cone, -meeting[1], meeting[0]);
     light_lens lens;
-    vec3 qd = d[0] * cone.z1 + d[1] * cone.z2;
-    vec3 qs = d[0] * cone.z2 - d[1] * cone.z1;
-    lens.v = v;
-    lens.stretch = vec3(ax, ay, 1.0f);
-    lens.along = lens.stretch * qd;
-    lens.across = lens.stretch * qs;
-    lens.axis = lens.stretch * cone.axis;
-    lens.metric = vec3(dot(qd, qd), dot(qd, qs), dot(qs, qs));
-    vec3 sv = lens.stretch * v;
-    lens.length_v = sqrt(dot(sv, sv));
-    // 4 / (2 pi) area, 1 / pi for sin_s^2, pi / 4 of the slices' weights.
-    real area = min(shrink * cone.area, 1.0f / max(s2, LIGHT_TINY)); // at most the disc
-    lens.scale = hidden ? 0.0f : 0.5f * INV_PI * area;
-
+    lens.along = light_half(lobe, d[0] * cone.n1 + d[1] * cone.n2);
+    lens.across = light_half(lobe, s[0] * cone.n1 + s[1] * cone.n2);
+    lens.axis = light_half(lobe, cone.axis);
+    lens.metric = vec3(1.0f - d[0] * d[0] - d[1] * d[1], -d[0] * s[0] - d[1] * s[1],
+                       1.0f - s[0] * s[0] - s[1] * s[1]);
+    lens.horizon = light_form_horizon(lens, lobe.inverse_z);
     // The raised cap's form is f (1 - tau^2 - sigma^2), the light's is that less the lift.
-    light_form horizon = light_form_horizon(lens);
-    real f = m * m * raised_reach * raised.sin_s * raised.sin_s / (cone.square * inverse);
-    light_form rim = light_form_rim(lens.metric, horizon, min(lift / max(f, LIGHT_TINY), 1e15f));
-    return light_lens_slice(lens, horizon, rim, cos_g, sin_g);
+    real f = lobe.larger * lobe.larger * raised_reach * raised.sin_s * raised.sin_s;
+    lens.lift = min(lift * v[2] * cone.square * inverse / max(f, LIGHT_TINY), 1e15f);
+    real area = min(shrink * inverse * inverse * cone.area, inverse_s2); // at most the disc
+    lens.scale = hidden ? 0.0f : 2.0f * INV_PI * area;
+    return light_lens_slice(lens, meeting[2], meeting[3]);
 }
 
-// Weight and cosine v.h of a node: `slice` and `place` = -1, 0, 1.  The light's reflection is the
-// sum of weight F(v.h) over all nine nodes, times E.
-static inline vec2 light_lens_node(light_lens lens, int slice, int place)
+// The lobe at a half vector, over its share of the ellipse: without and with Schlick's factor.
+static inline vec2 light_lens_node(light_ggx lobe, vec4 half_v, real s3)
 {
-    real low = slice < 0 ? lens.low[0] : slice > 0 ? lens.low[2] : lens.low[1];
-    real high = slice < 0 ? lens.high[0] : slice > 0 ? lens.high[2] : lens.high[1];
-    real half_length = max(0.5f * (high - low), 0.0f);
-    real t = 0.5f * (high + low) + half_length * (LIGHT_NODE * to_real(place));
-    real s = lens.width * to_real(slice);
-    real weight = half_length * (place == 0 ? 8.0f / 9.0f : 5.0f / 9.0f) *
-                  (slice == 0 ? 1.0f : LIGHT_SLICE);
-    vec3 metric = lens.metric;
-    real a2 = 1.0f - t * t * metric[0] - 2.0f * t * s * metric[1] - s * s * metric[2];
-    real a = sqrt(max(a2, 1e-6f));
-    vec3 h = t * lens.along + s * lens.across + a * lens.axis;
-    real vh = max(dot(lens.v, h), 0.0f);
-    real h1 = 1.0f / sqrt(dot(h, h));
-    real h2 = h1 * h1;
-    vec3 l = (2.0f * vh * h2) * h - lens.v;
-    vec3 sl = lens.stretch * l;
-    real NoL = max(l[2], 0.0f);
+    real hh = light_half_dot(half_v, half_v);
+    real vh = max(half_v[3], 0.0f);
+    real vh2 = 2.0f * vh;
+    real y = vh2 * half_v[1] - hh * lobe.v[1]; // of l, of length h.h
+    real NoL = max(vh2 * half_v[2] - hh * lobe.v[2], 0.0f);
+    vec3 square = lobe.square;
+    real length_l =
+        sqrt(max(square[0] * hh * hh + square[1] * y * y + square[2] * NoL * NoL, 0.0f));
     // G2 / G1 = (|Sv| + NoV) NoL / (|Sv| NoL + |Sl| NoV); Heitz 2014, eqs. 43, 99, 72 and 86.
-    real g = NoL / max(a * (lens.length_v * NoL + sqrt(dot(sl, sl)) * lens.v[2]), LIGHT_TINY);
-    return vec2(lens.scale * weight * vh * g, min(vh * h1, 1.0f));
+    real below = s3 * (lobe.length_v * NoL + length_l * lobe.v[2]);
+    real length_h = sqrt(hh);
+    real r = vh / max(below * length_h, LIGHT_TINY);
+    real x = r * NoL * length_h;
+    return vec2(x, x * pow5(max(1.0f - r * below, 0.0f)));
 }
 
-static inline vec2 light_lens_slice_sum(light_lens lens, int slice)
+// `flat_half` = the half vector less its part along the cone's axis, the square of which is `axial2`.
+static inline vec2 light_lens_at(light_lens lens, light_ggx lobe, vec4 flat_half, real axial2)
 {
-    vec2 a = light_lens_node(lens, slice, -1);
-    vec2 b = light_lens_node(lens, slice, 0);
-    vec2 c = light_lens_node(lens, slice, 1);
-    return vec2(a[0] + b[0] + c[0],
-                a[0] * pow5(1.0f - a[1]) + b[0] * pow5(1.0f - b[1]) + c[0] * pow5(1.0f - c[1]));
+    real s3 = sqrt(max(axial2, 1e-6f));
+    return light_lens_node(lobe, flat_half + s3 * lens.axis, s3);
+}
+
+// The nodes at tau = t, sigma = +-width together.
+static inline vec2 light_lens_outer(light_lens lens, light_ggx lobe, real t)
+{
+    vec3 metric = lens.metric;
+    real s = lens.width;
+    real even = 1.0f - s * s * metric[2] - t * t * metric[0];
+    real odd = 2.0f * s * metric[1] * t;
+    vec4 d = t * lens.along;
+    vec4 e = s * lens.across;
+    return light_lens_at(lens, lobe, d - e, even + odd) +
+           light_lens_at(lens, lobe, d + e, even - odd);
+}
+
+// The node at tau = t, sigma = 0.
+static inline vec2 light_lens_middle(light_lens lens, light_ggx lobe, real t)
+{
+    return light_lens_at(lens, lobe, t * lens.along, 1.0f - t * t * lens.metric[0]);
+}
+
+static inline vec2 light_lens_sum(light_lens lens, light_ggx lobe)
+{
+    vec2 middle = 0.5f * (lens.high + lens.low);
+    vec2 extent = 0.5f * (lens.high - lens.low);
+    real pair = LIGHT_PAIR * extent[0];
+    real ring = LIGHT_RING * extent[1];
+    vec2 outer = light_lens_outer(lens, lobe, middle[0] - pair) +
+                 light_lens_outer(lens, lobe, middle[0] + pair);
+    vec2 inner = light_lens_middle(lens, lobe, middle[1] - ring) +
+                 light_lens_middle(lens, lobe, middle[1] + ring);
+    vec2 centre = light_lens_middle(lens, lobe, middle[1]);
+    return lens.scale *
+           (LIGHT_SLICE_WEIGHT * extent[0] * outer + LIGHT_RING_WEIGHT * extent[1] * inner +
+            (1.0f - 6.0f * LIGHT_RING_WEIGHT) * extent[1] * centre);
 }
 
 // The GGX lobe under the light: x without Fresnel, y with the factor (1 - v.h)^5 of Schlick's,
 // so that E (f0 (x - y) + f90 y) is the radiance towards v.
+static inline vec2 light_cap_lobe(light_cap cap, light_ggx lobe)
+{
+    vec2 sum = light_lens_sum(light_lens_from_cap(cap, lobe), lobe);
+    // No light is reflected brighter than it is.
+    real x = min(sum[0], INV_PI / max(cap.sin_s * cap.sin_s, LIGHT_TINY));
+    return vec2(x, min(sum[1], x));
+}
+
 static inline vec2 light_cap_ggx(light_cap cap, vec3 v, real ax, real ay)
 {
-    light_lens lens = light_lens_from_cap(cap, v, ax, ay);
-    vec2 sum = light_lens_slice_sum(lens, -1) + light_lens_slice_sum(lens, 0) +
-               light_lens_slice_sum(lens, 1);
-    // No light is reflected brighter than it is.
-    real most = INV_PI / max(cap.sin_s * cap.sin_s, LIGHT_TINY);
-    return sum * min(1.0f, most / max(sum[0], LIGHT_TINY));
+    return light_cap_lobe(cap, light_ggx_from(v, ax, ay));
 }
 
 #endif
