@@ -27,6 +27,7 @@ const vec3 up = vec3(0.0, 0.0, 1.0);
 struct lit_surface {
     surface s;
     surface_frame f;
+    light_ggx ggx;
     vec2 dfg;
     vec4 ltc; // of light_ltc_matrix(), where it is needed
 };
@@ -41,6 +42,7 @@ lit_surface lit_surface_from(surface s, vec3 n, vec3 wo, vec2 dfg)
     lit_surface lit;
     lit.s = s;
     lit.f = surface_frame_from(s, n, wo);
+    lit.ggx = light_ggx_from(lit.f.v, lit.f.ax, lit.f.ay);
     lit.dfg = dfg;
     lit.ltc = vec4(0.0);
     if (uses_ltc()) {
@@ -76,7 +78,7 @@ vec2 cap_lobe(light_cap cap, lit_surface lit)
     case GPU_METHOD_LTC: return light_ltc_cap(cap, lit.f.v, lit.ltc, lit.dfg);
     case GPU_METHOD_REPRESENTATIVE: return light_representative_cap(cap, lit.f.v, lit.f.ax);
     }
-    return light_cap_ggx(cap, lit.f.v, lit.f.ax, lit.f.ay);
+    return light_cap_lobe(cap, lit.ggx);
 }
 
 // A sun, or a sphere of intensity I: the irradiance of what faces it is I / max(d, R)^2.

@@ -88,11 +88,11 @@ static const real LIGHT_TINY = 1e-30f;
 // Seven points of the unit disc: its centre and a hexagon, of which two stand on the diameter
 // sigma = 0 and four on the chords sigma = +-slice, at +-pair of the half chord.  The weights are
 // those of a slice's half length.  Section 5.
-static const real LIGHT_RING = 0.852f;
-static const real LIGHT_SLICE = 0.73785364f;        // ring sin 60
-static const real LIGHT_PAIR = 0.63114782f;         // ring cos 60 / sqrt(1 - slice^2)
-static const real LIGHT_RING_WEIGHT = 0.11479939f;  // 1 / (12 ring^2)
-static const real LIGHT_SLICE_WEIGHT = 0.17008306f; // 1 / (12 ring^2 sqrt(1 - slice^2))
+static const real LIGHT_RING = 0.83443363f;
+static const real LIGHT_SLICE = 0.72264072f;        // ring sin 60
+static const real LIGHT_PAIR = 0.60359148f;         // ring cos 60 / sqrt(1 - slice^2)
+static const real LIGHT_RING_WEIGHT = 0.11968374f;  // 1 / (12 ring^2)
+static const real LIGHT_SLICE_WEIGHT = 0.17314759f; // 1 / (12 ring^2 sqrt(1 - slice^2))
 
 // `to_centre` in metres.  On the sphere or in it, the hemisphere towards its centre: the cap is
 // continuous everywhere but at the centre (no choice of hemispheres is, on a full ball), and the
@@ -476,7 +476,7 @@ static inline vec2 light_lens_node(light_ggx lobe, vec4 half_v, real s3)
     return vec2(x, x * pow5(max(1.0f - r * below, 0.0f)));
 }
 
-// `flat_half` = the half vector less its part along the cone's axis, the square of which is `axial2`.
+// `flat_half` = the half vector less its part along the cone's axis; `axial2` = that part squared.
 static inline vec2 light_lens_at(light_lens lens, light_ggx lobe, vec4 flat_half, real axial2)
 {
     real s3 = sqrt(max(axial2, 1e-6f));
