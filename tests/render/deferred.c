@@ -84,7 +84,7 @@ static ag_scene *demo(const char *name)
 
 static void demos_agree(void **state)
 {
-    static const char *const names[] = { "spheres", "specular", "grid", "lights", "sphere-lights" };
+    static const char *const names[] = { "spheres", "grid", "sphere-lights" };
     const ag_render_options options = { .width = 160, .height = 120 };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         ag_scene *scene = demo(names[i]);
@@ -96,16 +96,15 @@ static void demos_agree(void **state)
 static void options_agree(void **state)
 {
     ag_scene *scene = demo("lights");
-    for (int quality = 0; quality <= AG_QUALITY_BEST; quality++)
-        for (int background = 0; background <= AG_BACKGROUND_COLOR; background++) {
-            const ag_render_options options = { .width = 93,
-                                                .height = 71,
-                                                .quality = (ag_quality)quality,
-                                                .background = (ag_background)background,
-                                                .background_color = { 0.2f, 0.9f, 0.5f },
-                                                .tonemap = AG_TONEMAP_ACES };
-            agree(*state, scene, NULL, &options);
-        }
+    for (int i = 0; i <= AG_QUALITY_BEST; i++) {
+        const ag_render_options options = { .width = 93,
+                                            .height = 71,
+                                            .quality = (ag_quality)i,
+                                            .background = (ag_background)((i + 2) % 3),
+                                            .background_color = { 0.2f, 0.9f, 0.5f },
+                                            .tonemap = AG_TONEMAP_ACES };
+        agree(*state, scene, NULL, &options);
+    }
     ag_scene_destroy(scene);
 }
 
