@@ -164,7 +164,7 @@ static inline real light_root(real a, real b, real c)
     k = k - p * d / max(d * d - p * (3.0f * k - a), LIGHT_TINY);
     p = k * k * (k - a) + (b * k - c);
     d = 3.0f * k * k + (b - 2.0f * a * k);
-    return max(k - p / max(d, LIGHT_TINY), LIGHT_TINY);
+    return k - p / max(d, LIGHT_TINY);
 }
 
 // The basis of a cap's rim is c0 + c1 cos t + c2 sin t, t = 0 at its highest point: c2 is
@@ -207,14 +207,14 @@ static inline light_cone light_cone_from_cap(light_cap cap, vec3 side, vec3 v, r
     c = c * c;
     real k = light_root(a, b, c);
     real inverse_k = 1.0f / k;
-    real others = k * k + k * max(k - a, 0.0f) + c * inverse_k; // (k + k1) (k + k2)
+    real others = k * (2.0f * k - a) + c * inverse_k; // (k + k1) (k + k2)
     real scale = sqrt(inverse_k);
 
     // A column of the adjugate of G + k J, which is (k + k1) (k + k2) x x^T; `length` = its
     // Lorentz length.
     vec3 column = vec3(g01 * g12 - (g11 + k) * g02, g01 * g02 - (g00 + k) * g12,
                        k * (g00 + g11 + k) + minor);
-    real length = sqrt(max(others * column[2], LIGHT_TINY));
+    real length = sqrt(others) * sqrt(column[2]);
     real inverse_length = 1.0f / length;
     real fold = 1.0f / (length + column[2]);
     vec3 tilt = column[0] * c1 + column[1] * c2;
