@@ -5,8 +5,11 @@
 // the point, and wholly above the horizon.  docs/area-lights.md derives what stands here; its
 // section numbers are below.  In brief: the half vectors of an arc lie on a quadratic cone, and
 // stay on one where a stretch turns visible normals into a clamped cosine (1); that cosine is
-// integrated over the sectors between a point within and short pieces of the arcs (2-4), and
-// shadowing and Fresnel are averaged over a node for each piece and one in the middle (5).
+// integrated over the sectors between a point within and the arcs (2-4), and shadowing and
+// Fresnel are averaged over a node for each sector and one in the middle (5).
+//
+// A light walks along its outline twice: light_fan_survey() for each arc, light_fan_settle(),
+// light_fan_add() for each arc again, light_fan_ggx().  Nothing is stored between.
 //
 // Symbols: all directions in the surface's frame, x = tangent, z = normal, pointing away from the
 // surface; v = towards the eye, unit, v.z > 0; ax, ay = GGX alpha along x and y, in (0, 1].
@@ -16,12 +19,7 @@
 #include "physics/fresnel.glsl"
 #include "physics/lang.glsl"
 
-#define AREA_PIECES 20
-#define AREA_NODES  21
-
 static const real AREA_TINY = 1e-30f;
-static const real AREA_RING = 0.81649658f; // sqrt(2 / 3)
-static const real AREA_GAUSS = 0.38729833f; // sqrt(3 / 5) / 2
 
 // The lobe seen from v; `axis` = the stretched v, unit: half vectors are stretch * s, and the
 // visible ones have the density of s.axis.
@@ -38,26 +36,6 @@ STRUCT(light_arc) {
     vec3 p0;
     vec3 p1;
     vec3 p2;
-};
-
-// Five arcs, each in four pieces.
-STRUCT(light_outline) {
-    light_lobe lobe;
-    light_arc piece[AREA_PIECES];
-    light_arc arc[5]; // whole: enough where all are short
-    bool small;
-    bool closed; // by a fifth along the horizon,
-    vec3 out_at; // from here
-    vec3 in_at;  // to here
-};
-
-// The light ready for any Fresnel: weight and v.h of each node.
-STRUCT(light_nodes) {
-    vec2 node[AREA_NODES];
-    int used;
-    vec3 centre;
-    real area;
-    real scale;
 };
 
 // A unit vector on an arc and its derivative (but for a multiple of itself).
@@ -144,78 +122,34 @@ static inline light_arc light_arc_shouldered(light_arc arc)
     return light_arc_paced(arc, sqrt(sqrt(n0 / n2)));
 }
 
-// Paced so that it starts as fast as it ends.
-static inline light_arc light_arc_even(light_arc arc)
-{
-    real n0 = max(dot(arc.p0, arc.p0), AREA_TINY);
-    real n2 = max(dot(arc.p2, arc.p2), AREA_TINY);
-    vec3 c0 = cross(arc.p0, arc.p1);
-    vec3 c2 = cross(arc.p1, arc.p2);
-    real v0 = sqrt(dot(c0, c0)) / n0;
-    real v2 = sqrt(dot(c2, c2)) / n2;
-    real least = 1e-6f * (v0 + v2) + 1e-20f;
-    return light_arc_paced(arc, sqrt((v2 + least) / (v0 + least)));
-}
+// An arc cut where it is as far from one end as from the other, its halves paced each for itself;
+// one that is short and straight has no second, and long ones have two pieces a half.
+STRUCT(light_halves) {
+    light_arc next;
+    light_arc then;
+    int count;
+    int pieces;
+};
 
-// ---- the outline --------------------------------------------------------------------------------
-
-static inline light_outline light_outline_start(light_lobe lobe)
-{
-    light_arc none;
-    none.p0 = none.p1 = none.p2 = lobe.axis;
-    light_outline o;
-    o.lobe = lobe;
-    for (int i = 0; i < AREA_PIECES; i++)
-        o.piece[i] = none;
-    for (int i = 0; i < 5; i++)
-        o.arc[i] = none;
-    o.small = true;
-    o.closed = false;
-    o.out_at = vec3(1.0f, 0.0f, 0.0f);
-    o.in_at = vec3(1.0f, 0.0f, 0.0f);
-    return o;
-}
-
-// Adds a half arc as two pieces.
-static inline light_outline light_outline_half(light_outline o, int i, light_arc half_arc)
-{
-    light_arc a = light_arc_shouldered(half_arc);
-    o.piece[i] = light_arc_first(a);
-    o.piece[i + 1] = light_arc_second(a);
-    return o;
-}
-
-// Adds half an arc that is not halved by its distances.
-static inline light_outline light_outline_part(light_outline o, int i, light_arc arc)
+static inline light_halves light_arc_halves(light_arc arc)
 {
     real n0 = sqrt(max(dot(arc.p0, arc.p0), AREA_TINY));
     real n2 = sqrt(max(dot(arc.p2, arc.p2), AREA_TINY));
-    light_arc a = light_arc_bisected(arc, n0, n2, arc.p0 / n0 - arc.p2 / n2);
-    o.piece[i] = light_arc_first(a);
-    o.piece[i + 1] = light_arc_second(a);
-    return o;
-}
-
-// Is it so short and straight that one piece will do?
-static inline bool light_arc_is_short(light_arc arc, real n0, real n2, vec3 apart)
-{
     real m = dot(arc.p1, arc.p1);
-    vec3 middle = arc.p1 - 0.5f * sqrt(m) * (arc.p0 / n0 + arc.p2 / n2);
-    return dot(apart, apart) < 0.04f && m > 0.5f * n0 * n2 && m < 2.0f * n0 * n2 &&
-           dot(middle, middle) < 0.01f * m;
-}
-
-// Adds the `i`th arc.
-static inline light_outline light_outline_add(light_outline o, int i, light_arc arc)
-{
-    real n0 = sqrt(max(dot(arc.p0, arc.p0), AREA_TINY));
-    real n2 = sqrt(max(dot(arc.p2, arc.p2), AREA_TINY));
     vec3 apart = arc.p0 / n0 - arc.p2 / n2;
+    vec3 bend = arc.p1 - 0.5f * sqrt(m) * (arc.p0 / n0 + arc.p2 / n2);
     light_arc a = light_arc_bisected(arc, n0, n2, apart);
-    o.small = o.small && light_arc_is_short(arc, n0, n2, apart);
-    o.arc[i] = arc;
-    o = light_outline_half(o, 4 * i, light_arc_first(a));
-    return light_outline_half(o, 4 * i + 2, light_arc_second(a));
+    bool is_long = dot(apart, apart) > 1.0f;
+    light_halves h;
+    h.next = light_arc_shouldered(light_arc_first(a));
+    h.then = light_arc_shouldered(light_arc_second(a));
+    h.count = 2;
+    h.pieces = is_long ? 2 : 1;
+    if (!is_long && dot(bend, bend) < 0.1f * m && m < 4.0f * n0 * n2 && n0 * n2 < 4.0f * m) {
+        h.next = light_arc_shouldered(arc);
+        h.count = 1;
+    }
+    return h;
 }
 
 // A great circle's arc between two directions.
@@ -245,89 +179,121 @@ static inline vec2 light_lobe_node(light_lobe b, vec3 s)
     return vec2((b.length_v + b.v[2]) * NoL / max(g2, AREA_TINY), min(vh * h1, 1.0f));
 }
 
-// The cosine's integral over the sector from the centre to the rim, a unit of x wide (section 4).
-static inline real light_sector(light_lobe lobe, vec3 centre, light_rim rim)
+// ---- the walk -----------------------------------------------------------------------------------
+
+STRUCT(light_fan) {
+    vec3 mean; // of the rim
+    vec3 turn; // twice its vector area
+    real way;
+    vec3 centre;
+    vec2 node; // there
+    real weight;
+    real ring; // the other nodes are so far from the centre to the rim
+    real sectors; // the cosine's integral over them,
+    real whole;   // and by the vector area
+    vec2 sum;     // over the sectors' nodes
+};
+
+static inline light_fan light_fan_start()
 {
-    vec3 d = rim.s - centre;
-    real c = max(1.0f - 0.5f * dot(d, d), 0.0f);
-    real k = 1.5688f + c * (-1.9418f + c * (1.9223f + c * (-1.2445f + c * 0.3626f)));
-    real density = dot(lobe.axis, centre) + dot(lobe.axis, rim.s - c * centre) * k;
-    return 0.5f * dot(centre, cross(d, rim.ds)) * max(density, 0.0f);
+    light_fan fan;
+    fan.mean = fan.turn = fan.centre = vec3(0.0f, 0.0f, 0.0f);
+    fan.node = fan.sum = vec2(0.0f, 0.0f);
+    fan.way = fan.weight = fan.ring = fan.sectors = fan.whole = 0.0f;
+    return fan;
 }
 
-// Three Gauss points of a piece, and its node: its area, G2 / G1, v.h.
-static inline vec3 light_piece(light_lobe lobe, vec3 centre, light_arc arc)
+static inline light_fan light_fan_survey_at(light_fan fan, light_arc arc, real x)
 {
-    light_rim middle = light_arc_at(arc, 0.5f);
-    real ends = light_sector(lobe, centre, light_arc_at(arc, 0.5f - AREA_GAUSS)) +
-                light_sector(lobe, centre, light_arc_at(arc, 0.5f + AREA_GAUSS));
-    real area = (5.0f * ends + 8.0f * light_sector(lobe, centre, middle)) / 18.0f;
-    vec3 q = AREA_RING * (middle.s - dot(middle.s, centre) * centre);
-    vec2 node = light_lobe_node(lobe, q + sqrt(max(1.0f - dot(q, q), 0.0f)) * centre);
-    return vec3(area, node[0], node[1]);
+    light_rim rim = light_arc_at(arc, x);
+    vec3 across = 0.5f * cross(rim.s, rim.ds);
+    real step = sqrt(dot(across, across));
+    fan.turn = fan.turn + across;
+    fan.mean = fan.mean + step * rim.s;
+    fan.way += step;
+    return fan;
 }
 
-// A point within, from the vector area of the outline and its own mean (section 4).
-static inline vec3 light_outline_centre(light_outline o)
+// Two Gauss points for each half.
+static inline light_fan light_fan_survey(light_fan fan, light_arc arc)
 {
-    int n = o.closed ? AREA_PIECES : o.small ? 4 : AREA_PIECES - 4;
-    vec3 turn = vec3(0.0f, 0.0f, 0.0f);
-    vec3 mean = vec3(0.0f, 0.0f, 0.0f);
-    real way = 0.0f;
-    for (int i = 0; i < n; i++) {
-        light_arc a = o.piece[i];
-        if (n == 4)
-            a = o.arc[i];
-        a = light_arc_even(a);
-        for (int k = -1; k <= 1; k++) {
-            light_rim rim = light_arc_at(a, 0.5f + to_real(k) * AREA_GAUSS);
-            vec3 across = (k == 0 ? 8.0f : 5.0f) / 18.0f * cross(rim.s, rim.ds);
-            real step = sqrt(dot(across, across));
-            turn = turn + across;
-            mean = mean + step * rim.s;
-            way += step;
+    light_halves h = light_arc_halves(arc);
+    for (int i = 0; i < h.count; i++) {
+        fan = light_fan_survey_at(fan, h.next, 0.21132487f);
+        fan = light_fan_survey_at(fan, h.next, 0.78867513f);
+        h.next = h.then;
+    }
+    return fan;
+}
+
+// x without Fresnel, y with the factor (1 - v.h)^5 of Schlick's.
+static inline vec2 light_fan_node(light_lobe lobe, vec3 s)
+{
+    vec2 node = light_lobe_node(lobe, s);
+    return vec2(node[0], node[0] * pow5(1.0f - node[1]));
+}
+
+// A point within, and its node, which counts for less where its light would come from below the
+// horizon.
+static inline light_fan light_fan_settle(light_fan fan, light_lobe lobe)
+{
+    vec3 mean = fan.mean / max(fan.way, AREA_TINY);
+    fan.centre = light_unit(mean + 0.5f * sqrt(dot(fan.turn, fan.turn)) * fan.turn);
+    fan.node = light_fan_node(lobe, fan.centre);
+    fan.weight = 0.25f * min(4.0f * fan.node[0], 1.0f);
+    fan.ring = sqrt(0.5f / (1.0f - fan.weight));
+    return fan;
+}
+
+// The sector from the centre to the rim, `width` of x wide.
+static inline light_fan light_fan_sector(light_fan fan, light_lobe lobe, light_rim rim, real width)
+{
+    vec3 d = rim.s - fan.centre;
+    vec3 turn = 0.5f * width * cross(d, rim.ds);
+    real c = 1.0f - 0.5f * dot(d, d);
+    real u = 1.0f / sqrt(max(1.0f + c, 0.01f));
+    real k = (1.5717f + c * (0.3797f - 0.0731f * c)) * u * u * u;
+    real top = dot(lobe.axis, fan.centre);
+    real area = dot(fan.centre, turn) * (top + k * (dot(lobe.axis, rim.s) - c * top));
+    real up = sqrt(1.0f - fan.ring * fan.ring * max(1.0f - c * c, 0.0f)) - fan.ring * c;
+    fan.sectors += area;
+    fan.whole += dot(lobe.axis, turn) +
+                 0.5f * width * dot(rim.ds, cross(lobe.axis, fan.centre));
+    fan.sum = fan.sum + area * light_fan_node(lobe, fan.ring * rim.s + up * fan.centre);
+    return fan;
+}
+
+// Four Gauss points for each piece.
+static inline light_fan light_fan_add(light_fan fan, light_lobe lobe, light_arc arc)
+{
+    light_halves h = light_arc_halves(arc);
+    int points = 4 * h.pieces;
+    real span = 1.0f / to_real(h.pieces);
+    for (int i = 0; i < h.count; i++) {
+        for (int j = 0; j < points; j++) {
+            int k = j < 4 ? j : j - 4;
+            bool outer = k == 0 || k == 3;
+            real x = outer ? 0.43056816f : 0.16999052f;
+            real width = outer ? 0.17392742f : 0.32607258f;
+            x = (k < 2 ? 0.5f - x : 0.5f + x) + (j < 4 ? 0.0f : 1.0f);
+            fan = light_fan_sector(fan, lobe, light_arc_at(h.next, span * x), span * width);
         }
+        h.next = h.then;
     }
-    return light_unit(mean / max(way, AREA_TINY) + 0.5f * sqrt(dot(turn, turn)) * turn);
+    return fan;
 }
 
-static inline light_nodes light_nodes_from_outline(light_outline o)
+// x without Fresnel, y with Schlick's factor: L (f0 (x - y) + f90 y) is the radiance towards v.
+static inline vec2 light_fan_ggx(light_fan fan, light_lobe lobe)
 {
-    light_nodes nodes;
-    nodes.centre = light_outline_centre(o);
-    nodes.area = 0.0f;
-    int n = o.closed ? AREA_PIECES : o.small ? 4 : AREA_PIECES - 4;
-    nodes.used = n + 1;
-    for (int i = 0; i < n; i++) {
-        light_arc a = o.piece[i];
-        if (n == 4)
-            a = o.arc[i];
-        vec3 piece = light_piece(o.lobe, nodes.centre, light_arc_even(a));
-        nodes.node[i] = vec2(piece[0] * piece[1], piece[2]);
-        nodes.area += piece[0];
-    }
-    vec2 middle = light_lobe_node(o.lobe, nodes.centre);
-    nodes.node[n] = vec2(0.25f / 0.75f * nodes.area * middle[0], middle[1]);
-    nodes.scale = nodes.area > 0.0f ? 0.75f * 2.0f * INV_PI / (1.0f + o.lobe.axis[2]) : 0.0f;
-    return nodes;
-}
-
-// Weight and v.h: the light's reflection towards v is L times the sum of weight F(v.h) over the
-// nodes i < nodes.used.
-static inline vec2 light_nodes_at(light_nodes nodes, int i)
-{
-    return vec2(nodes.scale * nodes.node[i][0], nodes.node[i][1]);
-}
-
-// x without Fresnel, y with the factor (1 - v.h)^5 of Schlick's: L (f0 (x - y) + f90 y) is the
-// radiance towards v.
-static inline vec2 light_nodes_ggx(light_nodes nodes)
-{
-    vec2 sum = vec2(0.0f, 0.0f);
-    for (int i = 0; i < nodes.used; i++) {
-        vec2 node = light_nodes_at(nodes, i);
-        sum = sum + vec2(node[0], node[0] * pow5(1.0f - node[1]));
-    }
+    real whole = max(fan.whole, 0.0f);
+    real t = clamp((whole - 0.1f) / 0.3f, 0.0f, 1.0f);
+    real area = mix(max(fan.sectors, 0.0f), whole, t * t * (3.0f - 2.0f * t));
+    vec2 sum = fan.sum / max(fan.sectors, AREA_TINY);
+    real mean = clamp(sum[0], 0.0f, 1.0f);
+    real grazing = clamp(sum[1], 0.0f, 1.0f);
+    area = area * 2.0f * INV_PI / (1.0f + lobe.axis[2]);
+    sum = area * (fan.weight * fan.node + (1.0f - fan.weight) * vec2(mean, grazing));
     real x = clamp(sum[0], 0.0f, 1.0f); // no light is reflected brighter than it is
     return vec2(x, clamp(sum[1], 0.0f, x));
 }

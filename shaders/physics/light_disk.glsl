@@ -213,44 +213,66 @@ static inline light_ellipse light_ellipse_about_axis(light_ellipse e)
     return round;
 }
 
-// The disk as nodes for any Fresnel (light_area.glsl).
-static inline light_nodes light_disk_nodes(vec3 centre, vec3 half_x, vec3 half_y, vec3 v, real ax,
-                                           real ay)
+// A walk along the ellipse in four arcs; the fifth is along the horizon.  Angles as cosine, sine.
+STRUCT(light_disk_walk) {
+    vec2 step; // half an arc
+    vec2 from;
+    light_arc arc;
+};
+
+static inline vec2 light_turned(vec2 a, vec2 by)
 {
-    light_ellipse disk = light_ellipse_from_axes(centre, half_x, half_y);
-    light_ellipse e = light_ellipse_about_axis(disk);
-    light_outline o = light_outline_start(light_lobe_from_view(v, ax, ay));
-    // th / 4, th / 2, 3 th / 4 and th.
-    vec2 t4 = vec2(e.cos_t, sqrt(1.0f - e.cos_t * e.cos_t));
-    real c2 = sqrt(0.5f + 0.5f * e.cos_t);
-    vec2 t2 = vec2(c2, sqrt(0.5f - 0.5f * e.cos_t));
-    real c1 = sqrt(0.5f + 0.5f * c2);
-    vec2 t1 = vec2(c1, 0.5f * t2[1] / c1);
-    vec2 t3 = vec2(t2[0] * t1[0] - t2[1] * t1[1], t2[1] * t1[0] + t2[0] * t1[1]);
-    vec2 top = vec2(1.0f, 0.0f);
-    vec2 m1 = vec2(t1[0], -t1[1]);
-    vec2 m2 = vec2(t2[0], -t2[1]);
-    vec2 m3 = vec2(t3[0], -t3[1]);
-    vec2 m4 = vec2(t4[0], -t4[1]);
-    o = light_outline_add(o, 0, light_ellipse_arc(o.lobe, e, m4, m2, m3, c1));
-    o = light_outline_add(o, 1, light_ellipse_arc(o.lobe, e, m2, top, m1, c1));
-    o = light_outline_add(o, 2, light_ellipse_arc(o.lobe, e, top, t2, t1, c1));
-    o = light_outline_add(o, 3, light_ellipse_arc(o.lobe, e, t2, t4, t3, c1));
-    if (e.cos_t > -1.0f) {
-        vec3 out_at = light_unit(light_ellipse_at(e, t4[0], t4[1]));
-        vec3 in_at = light_unit(light_ellipse_at(e, m4[0], m4[1]));
-        o = light_outline_add(o, 4, light_arc_great(o.lobe, out_at, in_at));
-        o.closed = true;
-    }
-    light_nodes nodes = light_nodes_from_outline(o);
-    nodes.scale = e.dark ? 0.0f : nodes.scale;
-    return nodes;
+    return vec2(a[0] * by[0] - a[1] * by[1], a[1] * by[0] + a[0] * by[1]);
 }
 
-// As light_nodes_ggx: L (f0 (x - y) + f90 y) is the radiance towards v.
+static inline light_disk_walk light_disk_walk_start(light_ellipse e)
+{
+    real half_cos = sqrt(max(0.5f + 0.5f * e.cos_t, 0.0f));
+    light_disk_walk w;
+    w.from = vec2(e.cos_t, -sqrt(1.0f - e.cos_t * e.cos_t));
+    w.step = vec2(sqrt(0.5f + 0.5f * half_cos), sqrt(0.5f - 0.5f * half_cos));
+    w.arc.p0 = w.arc.p1 = w.arc.p2 = e.centre;
+    return w;
+}
+
+static inline light_disk_walk light_disk_walk_next(light_disk_walk w, light_lobe lobe,
+                                                   light_ellipse e, bool last)
+{
+    vec2 middle = light_turned(w.from, w.step);
+    vec2 to = light_turned(middle, w.step);
+    w.arc = light_ellipse_arc(lobe, e, w.from, to, middle, w.step[0]);
+    if (last)
+        w.arc = light_arc_great(
+            lobe, light_unit(light_ellipse_at(e, w.from[0], w.from[1])),
+            light_unit(light_ellipse_at(e, w.from[0], -w.from[1])));
+    w.from = to;
+    return w;
+}
+
+static inline light_fan light_disk_fan(light_lobe lobe, vec3 centre, vec3 half_x, vec3 half_y)
+{
+    light_ellipse e = light_ellipse_about_axis(light_ellipse_from_axes(centre, half_x, half_y));
+    int arcs = e.dark ? 0 : e.cos_t > -1.0f ? 5 : 4;
+    light_fan fan = light_fan_start();
+    light_disk_walk w = light_disk_walk_start(e);
+    for (int i = 0; i < arcs; i++) {
+        w = light_disk_walk_next(w, lobe, e, i == 4);
+        fan = light_fan_survey(fan, w.arc);
+    }
+    fan = light_fan_settle(fan, lobe);
+    w = light_disk_walk_start(e);
+    for (int i = 0; i < arcs; i++) {
+        w = light_disk_walk_next(w, lobe, e, i == 4);
+        fan = light_fan_add(fan, lobe, w.arc);
+    }
+    return fan;
+}
+
+// As light_fan_ggx: L (f0 (x - y) + f90 y) is the radiance towards v.
 static inline vec2 light_disk_ggx(vec3 centre, vec3 half_x, vec3 half_y, vec3 v, real ax, real ay)
 {
-    return light_nodes_ggx(light_disk_nodes(centre, half_x, half_y, v, ax, ay));
+    light_lobe lobe = light_lobe_from_view(v, ax, ay);
+    return light_fan_ggx(light_disk_fan(lobe, centre, half_x, half_y), lobe);
 }
 
 #endif

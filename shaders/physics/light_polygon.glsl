@@ -77,41 +77,74 @@ static inline real light_quad_form_factor(vec3 p0, vec3 p1, vec3 p2, vec3 p3)
     return clamp(-0.5f * INV_PI * sum, 0.0f, 1.0f);
 }
 
-static inline light_outline light_outline_edge(light_outline o, int i, vec3 a, vec3 b)
+
+// A walk around the quadrilateral's directions; the fifth edge is along the horizon.
+STRUCT(light_quad_walk) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    vec3 d;
+    light_edge edge; // between unit vectors
+    vec3 out_at;
+    vec3 in_at;
+    bool closed;
+};
+
+static inline light_quad_walk light_quad_walk_start(vec3 p0, vec3 p1, vec3 p2, vec3 p3)
 {
-    light_edge e = light_edge_clip(a, b);
-    if (!e.up)
-        return o;
-    vec3 d = light_unit(e.a);
-    vec3 f = light_unit(e.b);
-    o.out_at = e.sinks ? f : o.out_at;
-    o.in_at = e.rises ? d : o.in_at;
-    o.closed = o.closed || e.sinks;
-    return light_outline_add(o, i, light_arc_great(o.lobe, d, f));
+    light_quad_walk w;
+    w.a = light_unit(p0);
+    w.b = light_unit(p3);
+    w.c = light_unit(p2);
+    w.d = light_unit(p1);
+    w.edge.a = w.edge.b = w.out_at = w.in_at = vec3(0.0f, 0.0f, 0.0f);
+    w.edge.up = w.edge.sinks = w.edge.rises = false;
+    w.closed = false;
+    return w;
 }
 
-// The quadrilateral as nodes for any Fresnel (light_area.glsl).
-static inline light_nodes light_quad_nodes(vec3 p0, vec3 p1, vec3 p2, vec3 p3, vec3 v, real ax,
-                                           real ay)
+static inline light_quad_walk light_quad_walk_next(light_quad_walk w, bool last)
 {
-    light_outline o = light_outline_start(light_lobe_from_view(v, ax, ay));
-    vec3 d0 = light_unit(p0);
-    vec3 d1 = light_unit(p1);
-    vec3 d2 = light_unit(p2);
-    vec3 d3 = light_unit(p3);
-    o = light_outline_edge(o, 0, d0, d3);
-    o = light_outline_edge(o, 1, d3, d2);
-    o = light_outline_edge(o, 2, d2, d1);
-    o = light_outline_edge(o, 3, d1, d0);
-    if (o.closed)
-        o = light_outline_add(o, 4, light_arc_great(o.lobe, o.out_at, o.in_at));
-    return light_nodes_from_outline(o);
+    light_edge e = light_edge_clip(w.a, w.b);
+    e.a = last ? w.out_at : light_unit(e.a);
+    e.b = last ? w.in_at : light_unit(e.b);
+    e.up = last ? w.closed : e.up;
+    w.edge = e;
+    w.out_at = e.sinks ? e.b : w.out_at;
+    w.in_at = e.rises ? e.a : w.in_at;
+    w.closed = w.closed || e.sinks;
+    vec3 t = w.a;
+    w.a = w.b;
+    w.b = w.c;
+    w.c = w.d;
+    w.d = t;
+    return w;
 }
 
-// As light_nodes_ggx: L (f0 (x - y) + f90 y) is the radiance towards v.
+static inline light_fan light_quad_fan(light_lobe lobe, vec3 p0, vec3 p1, vec3 p2, vec3 p3)
+{
+    light_fan fan = light_fan_start();
+    light_quad_walk w = light_quad_walk_start(p0, p1, p2, p3);
+    for (int i = 0; i < (w.closed ? 5 : 4); i++) {
+        w = light_quad_walk_next(w, i == 4);
+        if (w.edge.up)
+            fan = light_fan_survey(fan, light_arc_great(lobe, w.edge.a, w.edge.b));
+    }
+    fan = light_fan_settle(fan, lobe);
+    w = light_quad_walk_start(p0, p1, p2, p3);
+    for (int i = 0; i < (w.closed ? 5 : 4); i++) {
+        w = light_quad_walk_next(w, i == 4);
+        if (w.edge.up)
+            fan = light_fan_add(fan, lobe, light_arc_great(lobe, w.edge.a, w.edge.b));
+    }
+    return fan;
+}
+
+// As light_fan_ggx: L (f0 (x - y) + f90 y) is the radiance towards v.
 static inline vec2 light_quad_ggx(vec3 p0, vec3 p1, vec3 p2, vec3 p3, vec3 v, real ax, real ay)
 {
-    return light_nodes_ggx(light_quad_nodes(p0, p1, p2, p3, v, ax, ay));
+    light_lobe lobe = light_lobe_from_view(v, ax, ay);
+    return light_fan_ggx(light_quad_fan(lobe, p0, p1, p2, p3), lobe);
 }
 
 #endif

@@ -161,49 +161,106 @@ static inline real light_tube_form_factor(vec3 centre, vec3 half_axis, real radi
 static inline light_arc light_tube_arc(light_lobe lobe, light_tube_end e, vec2 span)
 {
     real t = 0.5f * (span[0] + span[1]);
-    real cos_half = cos(0.5f * (span[1] - span[0]));
-    vec3 middle = cos_half * e.foot + e.sin_s * (cos(t) * e.out_way + sin(t) * e.side);
+    real turn = 0.5f * (span[1] - span[0]);
+    real cos_turn = cos(turn);
+    vec3 out_way = e.sin_s * (cos(t) * e.out_way + sin(t) * e.side);
+    vec3 side = e.sin_s * sin(turn) * (cos(t) * e.side - sin(t) * e.out_way);
+    vec3 middle = lobe.v + e.foot + cos_turn * out_way;
     light_arc arc;
-    arc.p0 = lobe.unstretch * (lobe.v + light_tube_end_at(e, span[0]));
-    arc.p1 = lobe.unstretch * (cos_half * lobe.v + middle);
-    arc.p2 = lobe.unstretch * (lobe.v + light_tube_end_at(e, span[1]));
+    arc.p0 = lobe.unstretch * (middle - side);
+    arc.p1 = lobe.unstretch * (cos_turn * (lobe.v + e.foot) + out_way);
+    arc.p2 = lobe.unstretch * (middle + side);
     return arc;
 }
 
-static inline light_outline light_outline_tube_end(light_outline o, int i, light_tube_end e)
+// A walk around the outline, arc by arc: twice an edge and one or two parts of the end it leads
+// to; the third edge is along the horizon.
+STRUCT(light_tube_walk) {
+    light_tube_end end;  // the next
+    light_tube_end past; // the one behind
+    light_tube_span span;
+    light_arc edge;
+    int next; // 0 for the edge, 1 and 2 for the parts
+    int last; // that there is, less than next if none
+    vec3 out_at;
+    vec3 in_at;
+    bool closed;
+};
+
+static inline light_tube_walk light_tube_walk_start(light_tube t)
 {
-    light_tube_span s = light_tube_span_make(e);
-    bool single = s.one[1] == s.two[0];
-    real sink = single ? s.two[1] : s.one[1];
-    real rise = single ? s.one[0] : s.two[0];
-    o.out_at = s.sinks ? light_tube_end_at(e, sink) : o.out_at;
-    o.in_at = s.rises ? light_tube_end_at(e, rise) : o.in_at;
-    o.closed = o.closed || s.sinks;
-    o.small = false;
-    o = light_outline_part(o, 4 * i, light_tube_arc(o.lobe, e, s.one));
-    return light_outline_part(o, 4 * i + 2, light_tube_arc(o.lobe, e, s.two));
+    light_tube_walk w;
+    w.end = t.a;
+    w.past = t.b;
+    w.span.one = w.span.two = vec2(0.0f, 0.0f);
+    w.span.sinks = w.span.rises = false;
+    w.edge.p0 = w.edge.p1 = w.edge.p2 = t.a.foot;
+    w.next = 0;
+    w.last = 0;
+    w.out_at = w.in_at = vec3(1.0f, 0.0f, 0.0f);
+    w.closed = false;
+    return w;
 }
 
-// The tube as nodes for any Fresnel (light_area.glsl).
-static inline light_nodes light_tube_nodes(vec3 centre, vec3 half_axis, real radius, vec3 v,
-                                           real ax, real ay)
+// To the next edge and end.
+static inline light_tube_walk light_tube_walk_turn(light_tube_walk w, light_lobe lobe, bool last)
+{
+    light_tube_end past = w.past;
+    w.past = w.end;
+    w.end = past;
+    light_edge e = light_edge_clip(w.past.last, w.end.first);
+    light_tube_span s = light_tube_span_make(w.end);
+    bool single = s.one[1] == s.two[0];
+    bool whole = single && s.two[1] - s.one[0] < 4.0f;
+    vec3 a = last ? w.out_at : light_unit(e.a);
+    vec3 b = last ? w.in_at : light_unit(e.b);
+    w.edge = light_arc_great(lobe, a, b);
+    w.span.one = whole ? vec2(s.one[0], s.two[1]) : s.one;
+    w.span.two = s.two;
+    w.next = last || e.up ? 0 : 1;
+    w.last = last || s.one[1] <= s.one[0] ? 0 : whole ? 1 : 2;
+    w.out_at = e.sinks ? b : w.out_at;
+    w.in_at = e.rises ? a : w.in_at;
+    w.out_at = s.sinks ? light_tube_end_at(w.end, single ? s.two[1] : s.one[1]) : w.out_at;
+    w.in_at = s.rises ? light_tube_end_at(w.end, single ? s.one[0] : s.two[0]) : w.in_at;
+    w.closed = w.closed || e.sinks || s.sinks;
+    return w;
+}
+
+static inline light_arc light_tube_walk_arc(light_tube_walk w, light_lobe lobe)
+{
+    light_arc arc = w.edge;
+    if (w.next > 0)
+        arc = light_tube_arc(lobe, w.end, w.next == 1 ? w.span.one : w.span.two);
+    return arc;
+}
+
+static inline light_fan light_tube_fan(light_lobe lobe, vec3 centre, vec3 half_axis, real radius)
 {
     light_tube t = light_tube_from_axis(centre, half_axis, radius);
-    light_outline o = light_outline_start(light_lobe_from_view(v, ax, ay));
-    o = light_outline_edge(o, 0, t.a.last, t.b.first);
-    o = light_outline_tube_end(o, 1, t.b);
-    o = light_outline_edge(o, 2, t.b.last, t.a.first);
-    o = light_outline_tube_end(o, 3, t.a);
-    if (o.closed)
-        o = light_outline_add(o, 4, light_arc_great(o.lobe, o.out_at, o.in_at));
-    return light_nodes_from_outline(o);
+    light_fan fan = light_fan_start();
+    light_tube_walk w = light_tube_walk_start(t);
+    for (int i = 0; i < (w.closed ? 3 : 2); i++) {
+        w = light_tube_walk_turn(w, lobe, i == 2);
+        for (; w.next <= w.last; w.next++)
+            fan = light_fan_survey(fan, light_tube_walk_arc(w, lobe));
+    }
+    fan = light_fan_settle(fan, lobe);
+    w = light_tube_walk_start(t);
+    for (int i = 0; i < (w.closed ? 3 : 2); i++) {
+        w = light_tube_walk_turn(w, lobe, i == 2);
+        for (; w.next <= w.last; w.next++)
+            fan = light_fan_add(fan, lobe, light_tube_walk_arc(w, lobe));
+    }
+    return fan;
 }
 
-// As light_nodes_ggx: L (f0 (x - y) + f90 y) is the radiance towards v.
+// As light_fan_ggx: L (f0 (x - y) + f90 y) is the radiance towards v.
 static inline vec2 light_tube_ggx(vec3 centre, vec3 half_axis, real radius, vec3 v, real ax,
                                   real ay)
 {
-    return light_nodes_ggx(light_tube_nodes(centre, half_axis, radius, v, ax, ay));
+    light_lobe lobe = light_lobe_from_view(v, ax, ay);
+    return light_fan_ggx(light_tube_fan(lobe, centre, half_axis, radius), lobe);
 }
 
 #endif

@@ -319,14 +319,13 @@ static bool are_finite(const area_case *c)
 {
     vec3 o = to_vec3(c->centre), x = to_vec3(c->x), y = to_vec3(c->y), v = to_vec3(c->v);
     float ax = (float)c->ax, ay = (float)c->ay;
-    light_nodes n = c->kind == AREA_DISK ? light_disk_nodes(o, x, y, v, ax, ay)
-                    : c->kind == AREA_TUBE
-                        ? light_tube_nodes(o, x, (float)c->radius, v, ax, ay)
-                        : light_quad_nodes(o - x - y, o + x - y, o + x + y, o - x + y, v, ax, ay);
-    bool all = true;
-    for (int i = 0; i < n.used; i++)
-        all = all && isfinite(light_nodes_at(n, i)[0]) && isfinite(light_nodes_at(n, i)[1]);
-    return all;
+    light_lobe b = light_lobe_from_view(v, ax, ay);
+    light_fan f = c->kind == AREA_DISK ? light_disk_fan(b, o, x, y)
+                  : c->kind == AREA_TUBE
+                      ? light_tube_fan(b, o, x, (float)c->radius)
+                      : light_quad_fan(b, o - x - y, o + x - y, o + x + y, o - x + y);
+    return isfinite(f.sectors) && isfinite(f.whole) && isfinite(f.sum[0]) && isfinite(f.sum[1]) &&
+           isfinite(f.node[0]) && isfinite(f.weight);
 }
 
 static void no_light_breaks_it(void **state)
