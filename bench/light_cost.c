@@ -27,7 +27,10 @@ static const char *const method_name[] = { "loop", // METHOD of light_cost.comp
                                            "tube, representative point",
                                            "disk, LTC",
                                            "rectangle, LTC",
-                                           "tube, LTC" };
+                                           "tube, LTC",
+                                           "disk, sectors",
+                                           "rectangle, sectors",
+                                           "tube, sectors" };
 
 enum { METHODS = sizeof method_name / sizeof *method_name, LIGHTS = 16, RUNS = 7 };
 

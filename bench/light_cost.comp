@@ -2,9 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "physics/light_disk.glsl"
 #include "physics/light_ltc.glsl"
+#include "physics/light_polygon.glsl"
 #include "physics/light_representative.glsl"
 #include "physics/light_sphere.glsl"
+#include "physics/light_tube.glsl"
 
 layout(constant_id = 0) const uint METHOD = 0;
 layout(constant_id = 1) const uint LIGHTS = 16;
@@ -72,6 +75,13 @@ void main()
                                   m, dfg);
         else if (METHOD == 10)
             sum += light_ltc_tube(at, side, cap.sin_s, v, m, dfg);
+        else if (METHOD == 11)
+            sum += light_disk_ggx(at, side, up, v, alpha, alpha);
+        else if (METHOD == 12)
+            sum += light_quad_ggx(at - side - up, at + side - up, at + side + up, at - side + up, v,
+                                  alpha, alpha);
+        else if (METHOD == 13)
+            sum += light_tube_ggx(at, side, cap.sin_s, v, alpha, alpha);
     }
     y[id] = sum;
 }

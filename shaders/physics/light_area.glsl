@@ -252,7 +252,7 @@ static inline light_fan light_fan_sector(light_fan fan, light_lobe lobe, light_r
     vec3 turn = 0.5f * width * cross(d, rim.ds);
     real c = 1.0f - 0.5f * dot(d, d);
     real u = 1.0f / sqrt(max(1.0f + c, 0.01f));
-    real k = (1.5717f + c * (0.3797f - 0.0731f * c)) * u * u * u;
+    real k = (1.5747f + c * (0.3730f - 0.0701f * c)) * u * u * u;
     real top = dot(lobe.axis, fan.centre);
     real area = dot(fan.centre, turn) * (top + k * (dot(lobe.axis, rim.s) - c * top));
     real up = sqrt(1.0f - fan.ring * fan.ring * max(1.0f - c * c, 0.0f)) - fan.ring * c;
