@@ -1,9 +1,11 @@
 // The light that lights send to the eye by way of a surface at the place `here`.
 #include "physics/ambient.glsl"
 #include "physics/light_direction.glsl"
+#include "physics/light_disk.glsl"
 #include "physics/light_ltc.glsl"
 #include "physics/light_punctual.glsl"
 #include "physics/light_representative.glsl"
+#include "physics/light_tube.glsl"
 #include "physics/surface_light.glsl"
 #include "passes/frame.glsl"
 
@@ -13,15 +15,6 @@ layout(constant_id = 8) const uint GROUPS = 0u;
 layout(constant_id = 9) const uint CLUSTERED = 0u;
 layout(constant_id = 10) const uint AMBIENT = 0u;
 layout(constant_id = 11) const uint METHOD = GPU_METHOD_EXACT;
-
-#ifndef AREA_EXACT // until they land
-const vec4 identity = vec4(1.0, 0.0, 0.0, 1.0);
-#define light_disk_ggx(c, x, y, v, ax, ay) light_ltc_disk(c, x, y, v, lit.ltc, lit.dfg)
-#define light_tube_ggx(c, a, r, v, ax, ay) light_ltc_tube(c, a, r, v, lit.ltc, lit.dfg)
-const vec3 up = vec3(0.0, 0.0, 1.0);
-#define light_disk_form_factor(c, x, y) light_ltc_disk(c, x, y, up, identity, vec2(1.0, 0.0)).x
-#define light_tube_form_factor(c, a, r) light_ltc_tube(c, a, r, up, identity, vec2(1.0, 0.0)).x
-#endif
 
 // A surface as lights of extent ask for it.
 struct lit_surface {
@@ -34,7 +27,7 @@ struct lit_surface {
 
 bool uses_ltc()
 {
-    return METHOD == GPU_METHOD_LTC || (GROUPS & ~7u) != 0u;
+    return METHOD == GPU_METHOD_LTC;
 }
 
 lit_surface lit_surface_from(surface s, vec3 n, vec3 wo, vec2 dfg)
