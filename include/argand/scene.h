@@ -209,7 +209,7 @@ typedef struct ag_mesh_desc {
     const uint32_t *indices; // [index_count]; NULL -> 0, 1, 2, ...
     uint32_t index_count;    // a multiple of 3
     uint32_t tangent_uv_set; // the uv set that computed tangents follow
-    bool skip_tangents;      // no normal map will be used: any frame will do, nothing is split
+    bool skip_tangents;      // neither normal map nor anisotropy: any frame will do
 } ag_mesh_desc;
 
 // Add a mesh.  Normals and tangents are made unit; those without a direction, and uvs and
@@ -267,8 +267,9 @@ typedef struct ag_light_desc {
 } ag_light_desc;
 
 // Add a light; one of intensity 0 is dark.  Spheres, disks, rectangles, tubes and suns are
-// themselves seen, with the radiance that lights the scene, unless they are hidden; bodies do
-// not count for the scene's bounds.  AG_ERROR_ARGUMENT on a number that is not finite, a
+// themselves seen, with the radiance that lights the scene, unless they are hidden (suns: as
+// part of the background; pictures hold at most 60000 exposed); bodies do not count for the
+// scene's bounds.  AG_ERROR_ARGUMENT on a number that is not finite, a
 // negative intensity, range, size or colour, a spot's cone that is not
 // 0 <= inner < outer <= pi/2, or a sun as large as the sky.
 AG_CHECK ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_light *light);

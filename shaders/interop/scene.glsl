@@ -56,7 +56,7 @@ STRUCT_BEGIN(gpu_light)
     float inverse_range2;
     float3 intensity; // cd (punctual, sphere), lux (directional, sun), nit
     uint kind;
-    float3 direction; // unit, the way the light travels; up for tubes
+    float3 direction; // unit, the way the light travels; along a tube
     float radius;     // m; sine of a sun's angular radius
     float3 x;         // half the width of a rectangle, a disk; half a tube's axis
     float cone_scale; // light_spot_cone(); cosine of a sun's angular radius

@@ -174,6 +174,11 @@ static const char *aim(reading *r)
 }
 
 // What each key alone cannot know.
+static double degrees(float rad)
+{
+    return (double)rad * 57.29577951308232;
+}
+
 static const char *finish(reading *r)
 {
     const ag_light_desc *light = &r->light;
@@ -182,7 +187,8 @@ static const char *finish(reading *r)
             return complain(r, "lacks %s=, which a light of kind %s needs", keys[i].name,
                             words[light->kind]);
     if (light->kind == AG_LIGHT_SPOT && !(light->cone_inner_rad < light->cone_outer_rad))
-        return complain(r, "has an inner angle (0) that is not below the outer one (45)");
+        return complain(r, "has an inner angle of %g degrees that is not below the outer one of %g",
+                        degrees(light->cone_inner_rad), degrees(light->cone_outer_rad));
     return aim(r);
 }
 

@@ -58,8 +58,10 @@ static void span_depth(const grid *g, float near, float far, span *s)
 {
     if (g->view->orthographic)
         return;
-    if (far < g->view->near_m || near > g->view->far_m)
+    if (far < g->view->near_m || near > g->view->far_m) {
         s->last[2] = -1;
+        return;
+    }
     if (near > g->view->near_m)
         s->first[2] = clamp_index(log2f(near) * g->slice_scale + g->slice_offset - 0.01f);
     if (far > 0)
@@ -92,6 +94,8 @@ static void tangents(float x, float reach, float near, float far, float *low, fl
 static span span_of(const grid *g, const gpu_light *light)
 {
     span s = everywhere;
+    if (g->view->orthographic)
+        s.last[2] = 0;
     if (light->inverse_range2 <= 0)
         return s;
     const view *v = g->view;
@@ -118,7 +122,7 @@ static span span_of(const grid *g, const gpu_light *light)
     return s;
 }
 
-// For each cluster of the span, the word `offset` of its record.
+// For each cluster of the span.
 #define FOR_SPAN(s, cluster)                                                                       \
     for (int z_ = (s).first[2]; z_ <= (s).last[2]; z_++)                                           \
         for (int y_ = (s).first[1]; y_ <= (s).last[1]; y_++)                                       \
@@ -133,7 +137,9 @@ static void count_lights(const span *spans, const lights *l, uint32_t *records)
     for (int group = 0; group < GPU_LIGHT_GROUPS; group++)
         for (; i < l->ends[group]; i++)
             FOR_SPAN(spans[i], c)
-    records[c * GPU_CLUSTER_WORDS + 1 + group]++;
+            {
+                records[c * GPU_CLUSTER_WORDS + 1 + group]++;
+            }
 }
 
 // Counts become ends; the number of words comes back.
@@ -160,7 +166,9 @@ static bool fill_lists(const span *spans, const lights *l, uint32_t *words)
         next[c] = words[c * GPU_CLUSTER_WORDS];
     for (uint32_t i = 0; i < l->count; i++)
         FOR_SPAN(spans[i], c)
-    words[next[c]++] = i;
+        {
+            words[next[c]++] = i;
+        }
     free(next);
     return true;
 }
@@ -169,6 +177,11 @@ static ag_status write_clusters(gpu_device *device, const span *spans, uint32_t 
 {
     count_lights(spans, l, records);
     size_t words = place_lists(records);
+    if (words * sizeof *records > device->limits.maxStorageBufferRange)
+        return log_fail(&device->log, AG_ERROR_UNSUPPORTED,
+                        "%u lights reach too many parts of the picture for this device; give them "
+                        "ranges",
+                        l->count);
     ag_status status =
         gpu_buffer_ensure(device, words * sizeof *records, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                           GPU_MEMORY_UPLOAD, &l->clusters);

@@ -112,15 +112,33 @@ static float greatest(float3 c)
     return fmaxf(c.x, fmaxf(c.y, c.z));
 }
 
-// A light beyond whose range all of `count` such together would add less than half a step of
-// an 8-bit picture.  Only where light falls off as a point's: a mirror shows a body from afar.
+static float length_of(float3 v)
+{
+    return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+// cd, in the direction where a light sends most.
+static float candela(const gpu_light *light)
+{
+    float x = length_of(light->x), y = length_of(light->y), r = light->radius;
+    float most = greatest(light->intensity);
+    switch (light->kind) {
+    case GPU_LIGHT_RECT: return most * 4 * x * y;
+    case GPU_LIGHT_DISK: return most * PI * x * y;
+    case GPU_LIGHT_TUBE: return most * (4 * x * r + PI * r * r);
+    default: return most;
+    }
+}
+
+// Gives a light without a range one beyond which `count` such together add less to a white matte
+// surface than half a step of an 8-bit picture, in its darkest part, where steps are finest.
 static void bound_range(gpu_light *light, size_t count, float exposure)
 {
-    if (light->inverse_range2 > 0 || light->kind > GPU_LIGHT_SPOT)
-        return;
-    float least = 0.5f / 255 / (float)count;
-    light->inverse_range2 =
-        bounded(least / fmaxf(greatest(light->intensity) * exposure / PI, 1e-30f));
+    const float darkest = 0.5f / 255 / 12.92f; // sRGB's slope at black
+    bool placed = light->kind != GPU_LIGHT_DIRECTIONAL && light->kind != GPU_LIGHT_SUN;
+    if (placed && light->inverse_range2 == 0)
+        light->inverse_range2 =
+            bounded(darkest / (float)count / fmaxf(candela(light) * exposure / PI, 1e-30f));
 }
 
 static void add_ambient(const ag_light_desc *d, lights *l)

@@ -22,7 +22,8 @@ typedef struct lights {
 } lights;
 
 // Write the scene's lights.  Where there are many, each that has no range gets one: beyond it
-// the light would add nothing that can be seen at this exposure.
+// the light would add nothing that can be seen at this exposure, INFINITY for pictures that are
+// yet to be exposed.
 AG_CHECK ag_status lights_write(gpu_device *device, const ag_scene *scene, float exposure,
                                 lights *l);
 void lights_destroy(gpu_device *device, lights *l); // zero is allowed

@@ -97,7 +97,7 @@ static ag_status plan(const ag_scene *scene, const ag_camera_desc *camera,
                       const ag_render_options *options, picture *p)
 {
     float min[3], max[3];
-    bool visible = light_widen(scene, scene_bounds(scene, min, max), min, max);
+    bool visible = scene_bounds(scene, min, max);
     ag_camera_desc automatic;
     if (!camera) {
         ag_orbit orbit = ag_orbit_auto();
@@ -114,6 +114,10 @@ static ag_status plan(const ag_scene *scene, const ag_camera_desc *camera,
         .frames = options->quality == AG_QUALITY_BEST ? BEST_FRAMES : 1,
         .background = options->background == AG_BACKGROUND_ENVIRONMENT,
     };
+    for (size_t i = 0; i < scene->lights_count; i++)
+        if (light_is_seen(&scene->lights[i]))
+            view_include(&p->view, camera, scene->lights[i].position,
+                         light_reach(&scene->lights[i]));
     // Light is mixed before the tone curve wherever pictures or surfaces are mixed.
     p->hdr = options->format == AG_FORMAT_RGBA32F || p->frames > 1 || has_blending(scene);
     return draws_make(scene, &p->view, &p->draws);
@@ -183,7 +187,9 @@ static ag_status prepare(ag_renderer *r, picture *p, ag_render_stats *stats)
     if (!status)
         status = resident_surround(r, p->scene, p->background, stats);
     if (!status)
-        status = lights_write(r->device, p->scene, o->exposure, &r->resident.lights);
+        status = lights_write(r->device, p->scene,
+                              o->format == AG_FORMAT_RGBA32F ? INFINITY : o->exposure,
+                              &r->resident.lights);
     if (!status)
         status = upload_instances(r, &p->draws);
     if (status)

@@ -76,6 +76,16 @@ view view_make(const ag_camera_desc *camera, uint32_t width, uint32_t height, co
     return v;
 }
 
+void view_include(view *v, const ag_camera_desc *camera, const float center[3], float radius)
+{
+    float depth = view_depth(v, center), nearest = 0.99f * (depth - radius);
+    if (!(camera->far_m > 0))
+        v->far_m = fmaxf(v->far_m, 1.01f * (depth + radius));
+    // What is far costs the near no precision: depth is reversed, in floats.
+    if (!(camera->near_m > 0) && nearest < v->near_m)
+        v->near_m = v->orthographic ? nearest : fmaxf(nearest, fminf(v->near_m, v->far_m * 1e-5f));
+}
+
 // clip_from_view for the whole picture.
 static void project(const view *v, mat4 clip)
 {

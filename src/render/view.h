@@ -24,6 +24,9 @@ typedef struct view {
 view view_make(const ag_camera_desc *camera, uint32_t width, uint32_t height, const float min[3],
                const float max[3]);
 
+// Move the planes that the camera does not give, to have a ball between them.
+void view_include(view *v, const ag_camera_desc *camera, const float center[3], float radius);
+
 // The camera's part of a frame for one tile; `jitter` moves the samples within their
 // pixels, px to the right and down.
 void view_frame(const view *v, view_rect tile, const float jitter[2], gpu_frame *frame);

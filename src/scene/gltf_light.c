@@ -32,7 +32,7 @@ static float extra_size(const gltf_at *light, const char *key, float below)
     if (!at.json)
         return 0.0f;
     double value = json_is_number(at.json) ? json_number_value(at.json) : -1.0;
-    if (value >= 0.0 && value < (double)below)
+    if (value >= 0.0 && (float)value < below)
         return (float)value;
     gltf_warn_once(&at, GLTF_WARNED_EXTRAS, "is no size that a light can have; it is ignored");
     return 0.0f;

@@ -102,7 +102,6 @@ ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_ligh
         return log_fail(&scene->log, AG_ERROR_MEMORY, "There is no memory for a light.");
     scene->lights[scene->lights_count++] = made;
     light->id = (uint32_t)scene->lights_count;
-    scene->revision++;
     return AG_OK;
 }
 
@@ -156,24 +155,7 @@ float light_reach(const ag_light_desc *d)
     }
 }
 
-static bool is_seen(const ag_light_desc *d)
+bool light_is_seen(const ag_light_desc *d)
 {
     return light_reach(d) > 0.0f && !d->hidden;
-}
-
-bool light_widen(const ag_scene *scene, bool any, float min[3], float max[3])
-{
-    for (size_t i = 0; i < scene->lights_count; i++) {
-        const ag_light_desc *d = &scene->lights[i];
-        if (!is_seen(d))
-            continue;
-        float reach = light_reach(d);
-        for (int k = 0; k < 3; k++) {
-            float low = d->position[k] - reach, high = d->position[k] + reach;
-            min[k] = any ? fminf(min[k], low) : low;
-            max[k] = any ? fmaxf(max[k], high) : high;
-        }
-        any = true;
-    }
-    return any;
 }

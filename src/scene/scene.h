@@ -87,9 +87,8 @@ bool light_is_ambient(ag_light_kind kind);
 // m, from a light's position to the farthest point of its body; 0 for lights without one.
 float light_reach(const ag_light_desc *desc);
 
-// Widen bounds, there being `any`, by the bodies of lights that are seen; whether there are any
-// then.
-bool light_widen(const ag_scene *scene, bool any, float min[3], float max[3]);
+// Whether it has a body that is seen at a place.
+bool light_is_seen(const ag_light_desc *desc);
 
 // Where scene arrays stood, to take back what a failed load appended.
 typedef struct scene_mark {

@@ -99,7 +99,7 @@ sphere radius=1 hidden=1|gives 'hidden' a value; it takes none
 point color=1,-1,1|has color=1,-1,1, which has a weight below 0
 point color=0,0,0|has color=0,0,0, which is black; intensity=0 makes a light dark
 point intensity=inf|has intensity=inf, which is not a number
-spot inner=45|has an inner angle (0) that is not below the outer one (45)
+spot inner=45|has an inner angle of 45 degrees that is not below the outer one of 45
 spot outer=90.1|has outer=90.1, which is not between 0 and 90 degrees
 spot direction=0,0,0|has direction=0,0,0, which has no direction
 spot to=1,0,0 direction=1,0,0|has both to= and direction=; give one of them
