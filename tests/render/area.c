@@ -155,12 +155,20 @@ static double irradiance(const ag_light_desc *d, double x, double y)
     return sum / (steps * steps);
 }
 
-// Whether the wall's point is inside a sphere, or so near that the sum above is rough.
+// Whether the wall's point is inside a light, or so near that the sum above is rough.
 static bool is_inside(const ag_light_desc *d, float x, float y)
 {
-    float to[3] = { d->position[0] - x, d->position[1] - y, d->position[2] };
-    return d->kind == AG_LIGHT_SPHERE &&
-           sqrtf(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]) < 1.1f * d->radius_m;
+    double to[3] = { (double)d->position[0] - (double)x, (double)d->position[1] - (double)y,
+                     (double)d->position[2] };
+    double ax[3], ay[3], az[3], along = 0, d2 = 0;
+    axes(d, ax, ay, az);
+    for (int i = 0; i < 3; i++)
+        along -= d->kind == AG_LIGHT_TUBE ? to[i] * az[i] : 0;
+    along = fmax(fmin(along, (double)d->length_m / 2), (double)d->length_m / -2);
+    for (int i = 0; i < 3; i++)
+        d2 += (to[i] + along * az[i]) * (to[i] + along * az[i]);
+    bool hollow = d->kind == AG_LIGHT_SPHERE || d->kind == AG_LIGHT_TUBE;
+    return hollow && sqrt(d2) < 1.1 * (double)d->radius_m;
 }
 
 static float radiance(const ag_light_desc *d)
@@ -428,23 +436,21 @@ static float roll(float low, float high)
     return low + (high - low) * (float)(dice >> 8) / 16777216.0f;
 }
 
-enum { MANY = 264, FEW = 12 };
+enum { MANY = 260, FEW = 13 };
 
 static ag_light_desc any_light(int i)
 {
-    const ag_light_kind kinds[] = { AG_LIGHT_POINT, AG_LIGHT_SPHERE, AG_LIGHT_SPOT, AG_LIGHT_RECT,
-                                    AG_LIGHT_DISK,  AG_LIGHT_TUBE,   AG_LIGHT_POINT };
+    const ag_light_kind kinds[] = { AG_LIGHT_POINT, AG_LIGHT_SPHERE, AG_LIGHT_SPOT, AG_LIGHT_RECT };
     return (ag_light_desc) {
-        .kind = kinds[i % 7],
+        .kind = kinds[i % 4],
         .position = { roll(-4, 4), roll(-4, 4), roll(0.2f, 2) },
-        .direction = { roll(-1, 1), roll(-1, 1), i % 7 == 5 ? 0 : -1 },
+        .direction = { roll(-1, 1), roll(-1, 1), -1 },
         .color = { roll(0, 1), roll(0, 1), roll(0, 1) },
         .intensity = roll(0.2f, 1),
-        .range_m = i % 7 == 6 ? 0 : roll(0.5f, 2.5f),
+        .range_m = i % 11 == 6 ? 0 : roll(0.5f, 2.5f),
         .radius_m = roll(0.02f, 0.2f),
         .width_m = 0.3f,
         .height_m = 0.2f,
-        .length_m = 0.3f,
         .hidden = true,
     };
 }
@@ -471,10 +477,9 @@ static void many_lights_add_up(void **state)
 {
     const ag_camera_desc cameras[] = {
         stage_flat_camera(),
-        { .position = { 0, -5, 1.5f }, .target = { 0, 0, 0 }, .up = { 0, 0, 1 }, .fov_y_rad = 1 },
         { .position = { 1, 1, 0.6f }, .target = { -3, -2, 0 }, .up = { 0, 0, 1 }, .fov_y_rad = 2 },
     };
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 2; c++) {
         float *sum = calloc(64 * 64, sizeof *sum);
         for (int first = 0; first < MANY; first += FEW) {
             ag_image *image = draw_lights(*state, &cameras[c], first, first + FEW);
@@ -485,7 +490,7 @@ static void many_lights_add_up(void **state)
         ag_image *image = draw_lights(*state, &cameras[c], 0, MANY);
         for (uint32_t i = 0; i < 64 * 64; i++) {
             float got = stage_float(image, i % 64, i / 64)[1];
-            assert_close(got, sum[i], 2e-3f * sum[i] + 1.0f / 255);
+            assert_close(got, sum[i], 2e-3f * sum[i] + 1e-4f);
         }
         ag_image_destroy(image);
         free(sum);
