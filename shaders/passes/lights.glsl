@@ -16,10 +16,6 @@ layout(constant_id = 9) const uint CLUSTERED = 0u;
 layout(constant_id = 10) const uint AMBIENT = 0u;
 layout(constant_id = 11) const uint METHOD = GPU_METHOD_EXACT;
 
-#define light_quad_ggx(a, b, c, d, v, ax, ay) light_ltc_quad(a, b, c, d, v, lit.ltc, lit.dfg)
-#define light_disk_ggx(c, x, y, v, ax, ay) light_ltc_disk(c, x, y, v, lit.ltc, lit.dfg)
-#define light_tube_ggx(c, a, r, v, ax, ay) light_ltc_tube(c, a, r, v, lit.ltc, lit.dfg)
-
 // A surface as lights of extent ask for it.
 struct lit_surface {
     surface s;
@@ -31,7 +27,7 @@ struct lit_surface {
 
 bool uses_ltc()
 {
-    return METHOD == GPU_METHOD_LTC || (GROUPS & ~3u) != 0u;
+    return METHOD == GPU_METHOD_LTC;
 }
 
 lit_surface lit_surface_from(surface s, vec3 n, vec3 wo, vec2 dfg)

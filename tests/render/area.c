@@ -160,10 +160,11 @@ static bool is_inside(const ag_light_desc *d, float x, float y)
 {
     double to[3] = { (double)d->position[0] - (double)x, (double)d->position[1] - (double)y,
                      (double)d->position[2] };
-    double ax[3], ay[3], az[3], along = 0, d2 = 0;
-    axes(d, ax, ay, az);
+    double ax[3], ay[3], az[3] = { 0 }, along = 0, d2 = 0;
+    if (d->kind == AG_LIGHT_TUBE)
+        axes(d, ax, ay, az);
     for (int i = 0; i < 3; i++)
-        along -= d->kind == AG_LIGHT_TUBE ? to[i] * az[i] : 0;
+        along -= to[i] * az[i];
     along = fmax(fmin(along, (double)d->length_m / 2), (double)d->length_m / -2);
     for (int i = 0; i < 3; i++)
         d2 += (to[i] + along * az[i]) * (to[i] + along * az[i]);
