@@ -188,7 +188,8 @@ STRUCT(light_fan) {
     vec3 centre;
     vec2 node; // there
     real weight;
-    real ring; // the other nodes are so far from the centre to the rim
+    real ring; // the other nodes are so far from the centre to the rim,
+    real bend;    // so that a node on the way to a rim at 90 degrees has length 1
     real sectors; // the cosine's integral over them,
     real whole;   // and by the vector area
     vec2 sum;     // over the sectors' nodes
@@ -199,7 +200,7 @@ static inline light_fan light_fan_start()
     light_fan fan;
     fan.mean = fan.turn = fan.centre = vec3(0.0f, 0.0f, 0.0f);
     fan.node = fan.sum = vec2(0.0f, 0.0f);
-    fan.way = fan.weight = fan.ring = fan.sectors = fan.whole = 0.0f;
+    fan.way = fan.weight = fan.ring = fan.bend = fan.sectors = fan.whole = 0.0f;
     return fan;
 }
 
@@ -242,6 +243,8 @@ static inline light_fan light_fan_settle(light_fan fan, light_lobe lobe)
     fan.node = light_fan_node(lobe, fan.centre);
     fan.weight = 0.25f * min(4.0f * fan.node[0], 1.0f);
     fan.ring = sqrt(0.5f / (1.0f - fan.weight));
+    real ring2 = fan.ring * fan.ring;
+    fan.bend = sqrt(1.0f - ring2) - 1.0f + ring2;
     return fan;
 }
 
@@ -250,12 +253,13 @@ static inline light_fan light_fan_sector(light_fan fan, light_lobe lobe, light_r
 {
     vec3 d = rim.s - fan.centre;
     vec3 turn = 0.5f * width * cross(d, rim.ds);
-    real c = 1.0f - 0.5f * dot(d, d);
-    real u = 1.0f / sqrt(max(1.0f + c, 0.01f));
-    real k = (1.5747f + c * (0.3730f - 0.0701f * c)) * u * u * u;
+    real down = 0.5f * dot(d, d);
+    real c = 1.0f - down;
+    real u = max(1.0f + c, 0.1f);
+    real k = (1.5745f + c * (1.1197f + c * (0.0997f * c - 0.1151f))) / (u * u);
     real top = dot(lobe.axis, fan.centre);
     real area = dot(fan.centre, turn) * (top + k * (dot(lobe.axis, rim.s) - c * top));
-    real up = sqrt(1.0f - fan.ring * fan.ring * max(1.0f - c * c, 0.0f)) - fan.ring * c;
+    real up = (1.0f - fan.ring) * (1.0f + down * fan.ring) + down * down * fan.bend;
     fan.sectors += area;
     fan.whole += dot(lobe.axis, turn) +
                  0.5f * width * dot(rim.ds, cross(lobe.axis, fan.centre));
