@@ -5,6 +5,7 @@
 #include "physics/light_ltc.glsl"
 #include "physics/light_punctual.glsl"
 #include "physics/light_representative.glsl"
+#include "physics/light_small.glsl"
 #include "physics/light_tube.glsl"
 #include "physics/surface_light.glsl"
 #include "passes/frame.glsl"
@@ -101,6 +102,17 @@ float window_of(gpu_light light)
     return light_window(dot(to_light, to_light), light.inverse_range2);
 }
 
+// Of a light around `c`, `half_size` being half its extent.
+surface_shine point_if_small(surface_shine shine, vec3 c, vec3 area, float half_size,
+                             lit_surface lit)
+{
+    if (light_is_small(c, half_size)) {
+        shine.irradiance = light_small_irradiance(c, area);
+        shine.lobe = light_small_ggx(c, area, lit.f.v, lit.f.ax, lit.f.ay);
+    }
+    return shine;
+}
+
 vec3 lit_by_rect(gpu_light light, lit_surface lit)
 {
     vec3 c = surface_frame_in(lit.f, light.position - here.position);
@@ -110,6 +122,7 @@ vec3 lit_by_rect(gpu_light light, lit_surface lit)
     shine.irradiance = PI * light_quad_form_factor(p0, p1, p2, p3);
     shine.lobe = uses_ltc() ? light_ltc_quad(p0, p1, p2, p3, lit.f.v, lit.ltc, lit.dfg)
                             : light_quad_ggx(p0, p1, p2, p3, lit.f.v, lit.f.ax, lit.f.ay);
+    shine = point_if_small(shine, c, 4.0 * cross(x, y), sqrt(dot(x, x) + dot(y, y)), lit);
     shine.mean = light_direction_mean(c, 4.0 * cross(x, y));
     shine.nearest = light_direction_flat(c, x, y, lit.f.v, false);
     return window_of(light) * light.intensity * surface_shone(lit.s, lit.f, shine);
@@ -123,6 +136,7 @@ vec3 lit_by_disk(gpu_light light, lit_surface lit)
     shine.irradiance = PI * light_disk_form_factor(c, x, y);
     shine.lobe = uses_ltc() ? light_ltc_disk(c, x, y, lit.f.v, lit.ltc, lit.dfg)
                             : light_disk_ggx(c, x, y, lit.f.v, lit.f.ax, lit.f.ay);
+    shine = point_if_small(shine, c, PI * cross(x, y), length(x), lit);
     shine.mean = light_direction_mean(c, PI * cross(x, y));
     shine.nearest = light_direction_flat(c, x, y, lit.f.v, true);
     return window_of(light) * light.intensity * surface_shone(lit.s, lit.f, shine);
@@ -145,7 +159,9 @@ vec3 lit_by_tube(gpu_light light, lit_surface lit)
     surface_shine shine;
     shine.irradiance = PI * light_tube_form_factor(c, axis, light.radius);
     shine.lobe = tube_lobe(c, axis, light.radius, lit);
-    shine.mean = light_direction_mean(c, light_direction_tube_area(c, axis, light.radius));
+    vec3 area = light_direction_tube_area(c, axis, light.radius);
+    shine = point_if_small(shine, c, area, length(axis) + light.radius, lit);
+    shine.mean = light_direction_mean(c, area);
     shine.nearest = light_direction_tube(c, axis, light.radius, lit.f.v);
     return window_of(light) * light.intensity * surface_shone(lit.s, lit.f, shine);
 }

@@ -33,7 +33,7 @@ static inline vec3 light_direction_tube_area(vec3 centre, vec3 half_axis, real r
     vec3 side = cross(half_axis, centre);
     real d2 = max(dot(centre, centre), 1e-30f);
     real area = 4.0f * radius * sqrt(dot(side, side) / d2) + PI * radius * radius;
-    return area / sqrt(d2) * centre;
+    return -area / sqrt(d2) * centre;
 }
 
 // Of a flat light with these half axes, towards the point nearest to where the mirror ray of v

@@ -270,6 +270,31 @@ static void a_small_sphere_is_a_point(void **state)
     }
 }
 
+// So is what faces the place, or lies across it, of radiance times area as much intensity.
+static void small_shapes_are_points(void **state)
+{
+    ag_material_desc glossy = ag_material_default();
+    glossy.roughness = 0.4f;
+    const float at_40 = 40.5f / 32 - 1, at_28 = 1 - 28.5f / 32;
+    ag_light_desc light = { .position = { -0.4f, 0.2f, 1 }, .intensity = 5 };
+    float point = lit_center(*state, &glossy, light);
+    const float to[3] = { at_40 + 0.4f, at_28 - 0.2f, -1 };
+    for (float size = 1e-3f; size > 0.9e-6f; size *= 0.1f) {
+        light.radius_m = light.width_m = size;
+        light.height_m = light.length_m = 3 * size;
+        const ag_light_kind kinds[3] = { AG_LIGHT_RECT, AG_LIGHT_DISK, AG_LIGHT_TUBE };
+        const float areas[3] = { 3 * size * size, PI_F * size * size, (6 + PI_F) * size * size };
+        for (int i = 0; i < 3; i++) {
+            light.kind = kinds[i];
+            light.intensity = 5 / areas[i];
+            memcpy(light.direction, to, sizeof to);
+            if (light.kind == AG_LIGHT_TUBE)
+                memcpy(light.direction, (float[3]) { 1, 0, to[0] }, sizeof to);
+            assert_close(lit_center(*state, &glossy, light), point, 4e-3f * point);
+        }
+    }
+}
+
 // A sun shrinks to a directional light.
 static void a_small_sun_is_a_direction(void **state)
 {
@@ -503,6 +528,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_matte_wall_has_the_light_s_irradiance),
         cmocka_unit_test(a_small_sphere_is_a_point),
+        cmocka_unit_test(small_shapes_are_points),
         cmocka_unit_test(a_small_sun_is_a_direction),
         cmocka_unit_test(a_mirror_shows_the_light),
         cmocka_unit_test(a_light_is_seen),

@@ -389,7 +389,7 @@ static void test_rollback_takes_all_back(void **state)
     ag_scene_summary after = ag_scene_summarize(scene);
     assert_memory_equal(&before, &after, sizeof before);
     assert_int_equal(scene->images_count, 1);
-    assert_true(scene->revision > revision + 6);
+    assert_true(scene->revision > revision + 5); // a light alone changes nothing on a device
     ag_scene_destroy(scene);
 }
 
