@@ -106,7 +106,7 @@ float window_of(gpu_light light)
 surface_shine point_if_small(surface_shine shine, vec3 c, vec3 area, float half_size,
                              lit_surface lit)
 {
-    if (light_is_small(c, half_size)) {
+    if (light_is_small(c, half_size, min(lit.f.ax, lit.f.ay))) {
         shine.irradiance = light_small_irradiance(c, area);
         shine.lobe = light_small_ggx(c, area, lit.f.v, lit.f.ax, lit.f.ay);
     }

@@ -9,13 +9,13 @@
 #include "physics/fresnel.glsl"
 #include "physics/microfacet.glsl"
 
-// Of the distance.  A light of this size is a point even to the narrowest lobe, whose alpha is
-// .002, within a quarter of a percent.
-static const real LIGHT_SMALL = 1e-4f;
+// So much smaller than the lobe is wide that it is a point to it, within .2 %.
+static const real LIGHT_SMALL = 0.03f;
 
-static inline bool light_is_small(vec3 centre, real half_size)
+static inline bool light_is_small(vec3 centre, real half_size, real alpha)
 {
-    return half_size * half_size < LIGHT_SMALL * LIGHT_SMALL * dot(centre, centre);
+    real most = LIGHT_SMALL * alpha;
+    return half_size * half_size < most * most * dot(centre, centre);
 }
 
 // The solid angle of what faces the surface.
