@@ -97,7 +97,7 @@ typedef enum ag_quality {
 
 // How the highlights of lights of extent are found.
 typedef enum ag_area_lights {
-    AG_AREA_LIGHTS_EXACT = 0, // the closed form of docs/sphere-light.md
+    AG_AREA_LIGHTS_EXACT = 0, // docs/sphere-light.md and docs/area-lights.md
     // What it is compared with: linearly transformed cosines (Heitz et al. 2016); the
     // representative point (Karis 2013), which rectangles and disks do not have.
     AG_AREA_LIGHTS_LTC,
@@ -119,7 +119,8 @@ typedef struct ag_render_options {
 
 // The look of the text that a built-in scene comes from, as far as it is not in the scene:
 // sets `tonemap` and `transfer`, nothing else.  False, and nothing is set, for a scene that
-// comes from no text or is not there.
+// comes from no text or is not there.  Highlights of extent stay exact: that the texts'
+// are not is an erratum of theirs; `area_lights` has their method.
 AG_API bool ag_demo_look(const char *name, ag_render_options *options);
 
 // Milliseconds of wall time that one render spent, and what it drew.

@@ -121,7 +121,7 @@ typedef struct shape {
     double spread, tilt;
 } shape;
 
-// Some of the directions: the program `accuracy` prints the full table.
+// Some of the directions.
 static void check_cell(const area_case *cell, const cap_case *cap, const shape *s, bounds b)
 {
     static double axes[CAP_AXES][3];
@@ -359,8 +359,8 @@ static void float_is_enough(void **state)
     }
 }
 
-// A step of a millionth of the range moves the double text by less than a hundredth of its
-// greatest value nearby: there is no seam.
+// A small step moves the double text by less than two hundredths of its greatest value nearby:
+// there is no seam.
 static void there_are_no_seams(void **state)
 {
     (void)state;

@@ -358,8 +358,8 @@ static void float_is_enough(void **state)
     }
 }
 
-// A step of a millionth of the range moves the double text by less than a thousandth of its
-// greatest value nearby: there is no seam.  Roughness, radius, view, elevation, azimuth.
+// A small step moves the double text by less than a hundredth of its greatest value nearby:
+// there is no seam.  Roughness, radius, view, elevation, azimuth.
 static double swept(const double p[5])
 {
     double theta = p[2] * TAU / 360, up = p[3] * TAU / 360, turn = p[4] * TAU / 360, x[2];
