@@ -47,11 +47,12 @@ bench: ## build and run the benchmarks
 	@build/bench/bench/bench_light_cost
 	@build/bench/bench/bench_lights
 
-accuracy: ## print the sphere light's error against quadrature, methods side by side
+accuracy: ## print the area lights' errors against quadrature, methods side by side
 	@scripts/packages.sh build run test
 	@test -f build/bench/build.ninja || cmake --preset release -B build/bench -DARGAND_BENCH=ON
-	@cmake --build build/bench -j $(JOBS) --target accuracy
+	@cmake --build build/bench -j $(JOBS) --target accuracy accuracy_area
 	@build/bench/bench/accuracy && build/bench/bench/accuracy 10 0.6
+	@build/bench/bench/accuracy_area
 
 plots: ## draw the errors of the sphere light's methods to docs/accuracy-*.svg
 	@scripts/packages.sh build run test plots
