@@ -7,5 +7,6 @@ pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(jansson REQUIRED IMPORTED_TARGET jansson)
 pkg_check_modules(vulkan REQUIRED IMPORTED_TARGET vulkan)
+find_package(embree 3 REQUIRED)
 find_program(GLSLC glslc REQUIRED)
 # cglm is headers only (its Debian package has no pkg-config file that needs linking).

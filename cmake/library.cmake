@@ -1,6 +1,6 @@
 # libargand.so: the sum of the modules.  The tests link the same objects statically,
 # so that they can reach what is not public.
-set(modules base image scene bake gpu render)
+set(modules base image scene bake gpu render trace)
 list(TRANSFORM modules PREPEND argand_ OUTPUT_VARIABLE targets)
 
 add_library(argand SHARED)

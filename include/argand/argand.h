@@ -3,8 +3,10 @@
 #define ARGAND_ARGAND_H
 
 #include <argand/base.h>
+#include <argand/compare.h>
 #include <argand/image.h>
 #include <argand/metal.h>
+#include <argand/reference.h>
 #include <argand/renderer.h>
 #include <argand/scene.h>
 

@@ -56,6 +56,19 @@ typedef struct ag_image_save_options {
 AG_CHECK ag_status ag_image_save(const ag_log *log, const ag_image *image, const char *path,
                                  const ag_image_save_options *options);
 
+// One layer of an OpenEXR file: its channels are "name.R" and so on, those of the layer without
+// a name R, G, B, A.
+typedef struct ag_image_layer {
+    const char *name;      // NULL or "" -> the picture itself
+    const ag_image *image; // RGBA32F
+    const char *channels; // as its four are to be called: "RGBA", "RGB", "XYZ", "Z"; NULL -> "RGBA"
+} ag_image_layer;
+
+// Write images of one size as the layers of one OpenEXR file, as ag_image_save does.
+// AG_ERROR_ARGUMENT unless the name ends in .exr, sizes agree, all are RGBA32F and names differ.
+AG_CHECK ag_status ag_image_save_layers(const ag_log *log, const ag_image_layer *layers,
+                                        size_t count, const char *path);
+
 AG_API uint32_t ag_image_width(const ag_image *image);
 AG_API uint32_t ag_image_height(const ag_image *image);
 AG_API ag_format ag_image_format(const ag_image *image);

@@ -104,6 +104,15 @@ typedef enum ag_area_lights {
     AG_AREA_LIGHTS_REPRESENTATIVE_POINT,
 } ag_area_lights;
 
+// What of the light is in a picture, to see the rest without it.
+typedef enum ag_part {
+    AG_PART_SEEN = 1,     // what shines into the eye itself: background, lights' bodies, emission
+    AG_PART_LIGHTS = 2,   // surfaces under lights, ambient ones among them
+    AG_PART_DIFFUSE = 4,  // surfaces under the environment: their base
+    AG_PART_SPECULAR = 8, // and their lobe
+    AG_PART_EMITTED = 16, // surfaces under emissive ones: only ag_reference has it
+} ag_part;
+
 typedef struct ag_render_options {
     uint32_t width, height; // px; 0 -> 1024.  Above the device's limit: tiles
     ag_format format;       // RGBA8: tone-mapped and coded; RGBA32F: linear, exposed
@@ -114,6 +123,8 @@ typedef struct ag_render_options {
     ag_background background;
     float background_color[3]; // sRGB-coded, shown as it is, not exposed
     float exposure;            // linear factor; 0 -> ag_scene_exposure()
+    uint32_t parts;            // ag_part, or-ed; 0 -> all
+    ag_light light;            // AG_PART_LIGHTS is this one alone; 0 -> all
     ag_progress progress;      // stage "render"
 } ag_render_options;
 
