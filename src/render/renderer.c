@@ -9,14 +9,13 @@
 #include "render/deferred.h"
 #include "render/frame.h"
 #include "render/pixels.h"
+#include "scene/picture.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    SIZE_DEFAULT = 1024,
-    SIZE_MAX_PX = 1 << 16,
     TILE_CPU = 2048, // 4 samples of colour and depth are 32 bytes a pixel of host memory
     TILE_GPU = 4096,
     BEST_FRAMES = 32,
@@ -63,28 +62,6 @@ void ag_renderer_destroy(ag_renderer *r)
 
 // ---- What is asked -------------------------------------------------------------
 
-static ag_status check_options(const ag_scene *scene, ag_render_options *o)
-{
-    const ag_log *log = &scene->log;
-    if (!o->width && !o->height)
-        o->width = o->height = SIZE_DEFAULT;
-    if (!o->width || !o->height || o->width > SIZE_MAX_PX || o->height > SIZE_MAX_PX)
-        return log_fail(log, AG_ERROR_ARGUMENT, "a picture of %ux%u pixels is not in 1 to %d",
-                        o->width, o->height, SIZE_MAX_PX);
-    if (o->exposure == 0)
-        o->exposure = ag_scene_exposure(scene);
-    if (!(o->exposure > 0 && isfinite(o->exposure)))
-        return log_fail(log, AG_ERROR_ARGUMENT, "an exposure of %g is not above 0",
-                        (double)o->exposure);
-    if ((unsigned)o->tonemap > AG_TONEMAP_AGX || (unsigned)o->background > AG_BACKGROUND_COLOR ||
-        (unsigned)o->quality > AG_QUALITY_BEST || (unsigned)o->format > AG_FORMAT_RGBA32F ||
-        (unsigned)o->area_lights > AG_AREA_LIGHTS_REPRESENTATIVE_POINT ||
-        (unsigned)o->transfer > AG_TRANSFER_GAMMA_22)
-        return log_fail(log, AG_ERROR_ARGUMENT,
-                        "a render option has a value that its enumeration lacks");
-    return AG_OK;
-}
-
 static bool has_blending(const ag_scene *scene)
 {
     for (size_t i = 0; i < scene->instances_count; i++)
@@ -96,28 +73,15 @@ static bool has_blending(const ag_scene *scene)
 static ag_status plan(const ag_scene *scene, const ag_camera_desc *camera,
                       const ag_render_options *options, picture *p)
 {
-    float min[3], max[3];
-    bool visible = scene_bounds(scene, min, max);
-    ag_camera_desc automatic;
-    if (!camera) {
-        ag_orbit orbit = ag_orbit_auto();
-        automatic = ag_scene_frame(scene, &orbit, (float)options->width / (float)options->height);
-        camera = &automatic;
-    }
-    if (!scene_camera_is_sound(camera))
-        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
-                        "the camera has a number that is not finite or out of its range");
     *p = (picture) {
         .scene = scene,
         .options = options,
-        .view = view_make(camera, options->width, options->height, visible ? min : NULL, max),
         .frames = options->quality == AG_QUALITY_BEST ? BEST_FRAMES : 1,
         .background = options->background == AG_BACKGROUND_ENVIRONMENT,
     };
-    for (size_t i = 0; i < scene->lights_count; i++)
-        if (light_is_seen(&scene->lights[i]))
-            view_include(&p->view, camera, scene->lights[i].position,
-                         light_reach(&scene->lights[i]));
+    ag_status status = picture_view(scene, camera, options, &p->view);
+    if (status)
+        return status;
     // Light is mixed before the tone curve wherever pictures or surfaces are mixed.
     p->hdr = options->format == AG_FORMAT_RGBA32F || p->frames > 1 || has_blending(scene);
     return draws_make(scene, &p->view, &p->draws);
@@ -319,7 +283,7 @@ ag_status ag_renderer_render(ag_renderer *r, const ag_scene *scene, const ag_cam
     *stats = (ag_render_stats) { 0 };
     *image = NULL;
     picture p;
-    ag_status status = check_options(scene, &checked);
+    ag_status status = picture_check(scene, &checked);
     if (!status)
         status = plan(scene, camera, &checked, &p);
     if (status)
