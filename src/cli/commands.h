@@ -18,7 +18,7 @@ typedef struct command {
     const char *operands;  // "FILE|demo:NAME"
     const char *about;     // one line
     const char *lesson;    // what `argand help NAME` says below the usage; may be NULL
-    const option *options; // as in option_set; may be NULL
+    option_tables options; // as in option_set
     const char *more;      // what it says below the options; may be NULL
     const char *examples;  // and last; may be NULL
     exit_code (*run)(int argc, char **argv); // arguments behind the command's name

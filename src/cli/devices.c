@@ -87,7 +87,7 @@ static exit_code run(int argc, char **argv)
     devices_request request = { 0 };
     option_set set = {
         .command = "devices",
-        .options = options,
+        .options = { options },
         .fields = &request,
     };
     if (!options_parse(&set, argc, argv))
@@ -108,6 +108,6 @@ const command command_devices = {
     .name = "devices",
     .operands = "",
     .about = "list the Vulkan devices; their numbers serve --device",
-    .options = options,
+    .options = { options },
     .run = run,
 };

@@ -40,13 +40,14 @@ static void print_option(const option *o)
 void help_command(const command *c)
 {
     printf("usage: argand %s%s%s%s\n\nargand %s: %s.\n", c->name, *c->operands ? " " : "",
-           c->operands, c->options ? " [OPTION]..." : "", c->name, c->about);
+           c->operands, *c->options ? " [OPTION]..." : "", c->name, c->about);
     if (c->lesson)
         printf("\n%s", c->lesson);
-    if (c->options)
+    if (*c->options)
         puts("\noptions:");
-    for (const option *o = c->options; o && o->name; o++)
-        print_option(o);
+    for (const option *const *table = c->options; *table; table++)
+        for (const option *o = *table; o->name; o++)
+            print_option(o);
     if (c->more)
         printf("\n%s", c->more);
     if (c->examples)

@@ -218,7 +218,7 @@ static exit_code run(int argc, char **argv)
     info_request request = { 0 };
     option_set set = {
         .command = "info",
-        .options = options,
+        .options = { options },
         .fields = &request,
         .operands = &request.input,
         .operand_capacity = 1,
@@ -242,7 +242,7 @@ const command command_info = {
     .about = "tell what is in a file: meshes, materials, lights, cameras, extensions",
     .lesson = "Triangles and vertices are counted as drawn, summed over the instances.  What the\n"
               "file has and Argand does not support is named.\n",
-    .options = options,
+    .options = { options },
     .examples = "  argand info helmet.glb\n"
                 "  argand info helmet.glb --json\n",
     .run = run,

@@ -14,14 +14,17 @@ typedef struct cursor {
     char **argv;
 } cursor;
 
+static bool is_word(const char *word, const char *name, size_t length)
+{
+    return word && strlen(word) == length && strncmp(word, name, length) == 0;
+}
+
 static const option *find(const option_set *set, const char *name, size_t length)
 {
-    for (const option *o = set->options; o && o->name; o++) {
-        if (strlen(o->name) == length && strncmp(o->name, name, length) == 0)
-            return o;
-        if (o->letter && strlen(o->letter) == length && strncmp(o->letter, name, length) == 0)
-            return o;
-    }
+    for (const option *const *table = set->options; *table; table++)
+        for (const option *o = *table; o->name; o++)
+            if (is_word(o->name, name, length) || is_word(o->letter, name, length))
+                return o;
     return NULL;
 }
 
@@ -29,8 +32,9 @@ static bool unknown(const option_set *set, const char *name, size_t length)
 {
     const char *names[MOST_OPTIONS];
     size_t count = 0;
-    for (const option *o = set->options; o && o->name && count < MOST_OPTIONS; o++)
-        names[count++] = o->name;
+    for (const option *const *table = set->options; *table; table++)
+        for (const option *o = *table; o->name && count < MOST_OPTIONS; o++)
+            names[count++] = o->name;
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)length, name);
     const char *near = text_nearest(word, names, count);

@@ -28,9 +28,12 @@ typedef struct option {
     size_t seen_offset; // of a bool that says that the option was given; 0 = not wanted
 } option;
 
+// Tables of options, each ending with one without a name; the list of them ends with NULL.
+typedef const option *option_tables[4];
+
 typedef struct option_set {
-    const char *command;   // for messages
-    const option *options; // ends with one without a name; NULL -> none
+    const char *command; // for messages
+    option_tables options;
     void *fields;          // where the offsets lead
     const char **operands; // room for `operand_capacity` of them
     size_t operand_capacity, operand_count;

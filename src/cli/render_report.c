@@ -39,7 +39,7 @@ static void print_stages(json *j, const render_report *r)
     json_close(j, '}');
 }
 
-static void print_json(const render_report *r, const render_request *request)
+static void print_json(const render_report *r, const shot_request *request)
 {
     json j = { .file = stdout };
     json_open(&j, NULL, '{');
@@ -62,7 +62,7 @@ static void print_json(const render_report *r, const render_request *request)
     json_close(&j, '}');
 }
 
-void render_report_print(const render_report *r, const render_request *request)
+void render_report_print(const render_report *r, const shot_request *request)
 {
     if (request->json)
         print_json(r, request);

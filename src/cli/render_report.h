@@ -2,7 +2,7 @@
 #ifndef CLI_RENDER_REPORT_H
 #define CLI_RENDER_REPORT_H
 
-#include "render_options.h"
+#include "shot_options.h"
 
 typedef struct render_report {
     ag_device_info device;
@@ -17,6 +17,6 @@ typedef struct render_report {
 } render_report;
 
 // One line for people, or with --json one object, on standard output.
-void render_report_print(const render_report *report, const render_request *request);
+void render_report_print(const render_report *report, const shot_request *request);
 
 #endif

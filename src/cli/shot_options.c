@@ -1,5 +1,5 @@
-// The options of `argand render`: their table, and what must not stand together.
-#include "render_options.h"
+// The options that commands with pictures share: their tables, and what must not stand together.
+#include "shot_options.h"
 
 #include "text.h"
 
@@ -69,11 +69,9 @@ static const char *read_environment(const char *value, void *field)
     return NULL;
 }
 
-#define FIELD(member) offsetof(render_request, member)
+#define FIELD(member) offsetof(shot_request, member)
 
-const option render_options[] = {
-    { "--output", "-o", "FILE", "picture.png", "where the picture goes: .png .jpg .webp .exr .hdr",
-      FIELD(output), value_text, NULL, 0 },
+const option shot_options[] = {
     { "--size", NULL, "WxH", "1024x1024", "width and height in pixels (1024x1024)", FIELD(size),
       value_size, NULL, 0 },
     { "--camera", NULL, "NAME|INDEX", "0", "a camera of the file; the first is 0", FIELD(camera),
@@ -107,6 +105,14 @@ const option render_options[] = {
       FIELD(transfer), NULL, transfers, FIELD(transfer_given) },
     { "--correct", NULL, NULL, "", "a built-in scene in Argand's look, not that of its text",
       FIELD(correct), NULL, NULL, 0 },
+    { "--json", NULL, NULL, "", "print one JSON object: sizes, milliseconds, memory and more",
+      FIELD(json), NULL, NULL, 0 },
+    { "--quiet", "-q", NULL, "", "print errors only", FIELD(quiet), NULL, NULL, 0 },
+    { "--verbose", "-v", NULL, "", "say what is chosen and done", FIELD(verbose), NULL, NULL, 0 },
+    { 0 },
+};
+
+const option shot_device_options[] = {
     { "--area-lights", NULL, "METHOD", "ltc",
       "highlights: exact, ltc or representative-point (exact)", FIELD(area_lights), NULL,
       area_lights, 0 },
@@ -116,10 +122,6 @@ const option render_options[] = {
       "what computes; `argand devices` lists them (auto)", FIELD(device), value_text, NULL, 0 },
     { "--validate", NULL, NULL, "", "watch the use of Vulkan; a message fails the command",
       FIELD(validate), NULL, NULL, 0 },
-    { "--json", NULL, NULL, "", "print one JSON object: sizes, device, milliseconds, memory",
-      FIELD(json), NULL, NULL, 0 },
-    { "--quiet", "-q", NULL, "", "print errors only", FIELD(quiet), NULL, NULL, 0 },
-    { "--verbose", "-v", NULL, "", "say what is chosen and done", FIELD(verbose), NULL, NULL, 0 },
     { 0 },
 };
 
@@ -159,12 +161,8 @@ static bool can_be_corrected(const char *input)
 }
 
 // What each option alone cannot know.
-static bool sound(const render_request *r)
+static bool sound(const shot_request *r)
 {
-    if (!r->input)
-        return refuse("render: which file? Try: argand render model.glb -o picture.png");
-    if (!r->output)
-        return refuse("render: where should the picture go? Add: -o picture.png");
     if (r->camera && (r->orbit_given || r->target_given))
         return refuse("--camera takes a camera of the file; --orbit and --target place one: give "
                       "one or the other.");
@@ -177,28 +175,32 @@ static bool sound(const render_request *r)
     return !r->correct || can_be_corrected(r->input);
 }
 
-bool render_request_parse(render_request *r, int argc, char **argv, bool *help)
+shot_request shot_request_default(void)
 {
-    *r = (render_request) {
+    return (shot_request) {
         .size = { 1024, 1024 },
         .orbit = { NAN, NAN, NAN },
         .target = { NAN, NAN, NAN },
         .environment_intensity = 1,
         .device = "auto",
     };
-    option_set set = {
-        .command = "render",
-        .options = render_options,
-        .fields = r,
-        .operands = &r->input,
-        .operand_capacity = 1,
-    };
-    if (!options_parse(&set, argc, argv))
+}
+
+bool shot_request_settle(shot_request *r, const char *command)
+{
+    if (!r->input || !r->output) {
+        fprintf(stderr,
+                r->input ? "argand: %s: where should the picture go? Add: -o picture.png\n"
+                         : "argand: %s: which file? Try: argand %s model.glb -o picture.png\n",
+                command, command);
         return false;
-    *help = set.help;
-    if (set.help)
-        return true;
+    }
     if (r->ev100_given) // the luminance that saturates, 1.2 * 2^EV100, becomes 1 (ISO 2720, 12232)
         r->exposure = 1 / (1.2f * exp2f(r->ev100));
     return sound(r);
+}
+
+ag_log_level shot_log_level(const shot_request *r)
+{
+    return r->verbose ? AG_LOG_DEBUG : r->quiet ? AG_LOG_ERROR : AG_LOG_WARNING;
 }

@@ -1,6 +1,7 @@
-// What `argand render` was asked for.
-#ifndef CLI_RENDER_OPTIONS_H
-#define CLI_RENDER_OPTIONS_H
+// What to make a picture of and how, as the command line says it: the options that
+// commands share.
+#ifndef CLI_SHOT_OPTIONS_H
+#define CLI_SHOT_OPTIONS_H
 
 #include "lights.h"
 #include "options.h"
@@ -18,9 +19,9 @@ typedef struct environment_choice {
     const char *path; // of an image; borrowed from argv
 } environment_choice;
 
-typedef struct render_request {
-    const char *input; // a path, or "demo:NAME"
-    const char *output;
+typedef struct shot_request {
+    const char *input;  // a path, or "demo:NAME"
+    const char *output; // each command has its own row for it
     picture_size size;
     const char *camera; // name or index; NULL -> automatic
     float orbit[3];     // rad, rad, m; NAN = automatic
@@ -37,12 +38,20 @@ typedef struct render_request {
     bool validate, json, quiet, verbose;
     bool orbit_given, target_given, exposure_given, ev100_given, tonemap_given, transfer_given;
     bool environment_given; // or its rotation, or its intensity
-} render_request;
+} shot_request;
 
-extern const option render_options[];
+// The options that every command with pictures takes, and those of pictures on a device:
+// for a struct that begins with a shot_request.
+extern const option shot_options[], shot_device_options[];
 
-// Fill `request` from the arguments behind `render`.  False after one sentence; `*help`
-// says that help was asked for instead.
-bool render_request_parse(render_request *request, int argc, char **argv, bool *help);
+// What holds where nothing is given.
+shot_request shot_request_default(void);
+
+// After parsing: fill in what follows from what was given.  False after one sentence where
+// it makes no sense, or where input or output is missing.
+bool shot_request_settle(shot_request *request, const char *command);
+
+// The most talkative level that is wanted.
+ag_log_level shot_log_level(const shot_request *request);
 
 #endif
