@@ -107,6 +107,9 @@ STRUCT_BEGIN(gpu_frame)
     float slice_scale;
     float slice_offset;
     float2 pixel; // its size in clip space
+    // Factors of a picture's parts: what shines into the eye itself; bases and lobes of surfaces
+    // under the environment, its intensity included.
+    float seen, environment_base, environment_lobe;
 STRUCT_END(gpu_frame)
 
 // Read as a vertex's attributes.
@@ -197,7 +200,7 @@ STRUCT_BEGIN(gpu_list)
 STRUCT_END(gpu_list)
 
 #ifndef GL_core_profile
-_Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 2 * 9 * 12 + 20 + 8 + 16 + 8 + 8,
+_Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 2 * 9 * 12 + 20 + 8 + 16 + 8 + 8 + 12,
                "gpu_frame");
 _Static_assert(sizeof(gpu_light) == 5 * 16 + 12, "gpu_light");
 _Static_assert(sizeof(gpu_instance) == 48, "gpu_instance");

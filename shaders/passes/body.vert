@@ -14,6 +14,6 @@ void main()
     vec3 view = frame.orthographic != 0.0 ? frame.ray_center : l.position - frame.eye;
     bool seen = body_faces(body, view) && l.radiance != vec3(0.0);
     vec3 p = body_vertex(body, uint(gl_VertexIndex));
-    out_radiance = l.radiance;
+    out_radiance = frame.seen * l.radiance;
     gl_Position = seen ? frame.clip_from_world * vec4(p, 1.0) : vec4(0.0, 0.0, -1.0, 1.0);
 }

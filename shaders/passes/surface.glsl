@@ -180,8 +180,8 @@ vec3 lit_by_environment(surface s, vec3 n, vec3 wo, float roughness, float ao)
     vec3 irradiance = ENVIRONMENT == GPU_ENVIRONMENT_HARMONICS
                           ? sh_irradiance(frame.sh, environment_from_world(n))
                           : textureLod(irradiance_cube, environment_from_world(n), 0.0).rgb;
-    return frame.environment_intensity *
-           surface_environment(s, ao * irradiance, open * prefiltered);
+    return surface_environment(s, (frame.environment_base * ao) * irradiance,
+                               (frame.environment_lobe * open) * prefiltered);
 }
 
 vec3 radiance_to_eye(vec3 base_color)
@@ -200,7 +200,7 @@ vec3 radiance_to_eye(vec3 base_color)
     s.a2 = specular_aa_alpha2(s.a2, turn_x, turn_y);
     s.a2_across = specular_aa_alpha2(s.a2_across, turn_x, turn_y);
 
-    vec3 light = material.emissive *
+    vec3 light = frame.seen * material.emissive *
                  SAMPLE(emissive_texture, GPU_TEXTURE_EMISSIVE, vec4(1.0)).rgb;
     float ao = occlusion_here();
     if (ENVIRONMENT != GPU_ENVIRONMENT_NONE)
@@ -220,7 +220,7 @@ vec4 base_here()
 // What is drawn, premultiplied.
 vec4 color_here(vec4 base)
 {
-    vec3 color = UNLIT != 0u ? base.rgb : radiance_to_eye(base.rgb);
+    vec3 color = UNLIT != 0u ? frame.seen * base.rgb : radiance_to_eye(base.rgb);
     color *= frame.exposure;
     if (TONE != GPU_TONE_LINEAR)
         color = display(TONE, color);

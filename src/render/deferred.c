@@ -99,7 +99,8 @@ static void name_lights(const ag_renderer *r, const picture *p)
     uint32_t tone = variants_tone_early(p);
     for (uint32_t i = 0; i < l->count; i++) {
         const float *light = &all[i].radiance.x;
-        vec3 c = min(p->options->exposure * vec3(light[0], light[1], light[2]), 60000.0f);
+        float factor = p->options->parts & AG_PART_SEEN ? p->options->exposure : 0;
+        vec3 c = min(factor * vec3(light[0], light[1], light[2]), 60000.0f);
         if (tone != GPU_TONE_LINEAR)
             c = display(tone, c);
         r->visibility.sources[p->draws.instance_count + i] =

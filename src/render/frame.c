@@ -115,6 +115,8 @@ float4 frame_backdrop(const picture *p)
 {
     if (p->options->background != AG_BACKGROUND_COLOR)
         return (float4) { 0, 0, 0, 0 };
+    if (!(p->options->parts & AG_PART_SEEN))
+        return (float4) { 0, 0, 0, 1 };
     const float *c = p->options->background_color;
     return (float4) { color_srgb_decode_channel(c[0]), color_srgb_decode_channel(c[1]),
                       color_srgb_decode_channel(c[2]), 1 };
@@ -277,6 +279,16 @@ static ag_status find_clusters(ag_renderer *r, const picture *p, view_rect tile,
     return status;
 }
 
+// What is no part of the picture is black, not away: it still hides what is behind it.
+static void set_parts(const picture *p, gpu_frame *frame)
+{
+    uint32_t parts = p->options->parts;
+    float intensity = frame->environment_intensity;
+    frame->seen = parts & AG_PART_SEEN ? 1.0f : 0.0f;
+    frame->environment_base = parts & AG_PART_DIFFUSE ? intensity : 0;
+    frame->environment_lobe = parts & AG_PART_SPECULAR ? intensity : 0;
+}
+
 ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t index)
 {
     ag_status status = gpu_commands_wait(r->device, &r->commands);
@@ -287,6 +299,7 @@ ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t 
     gpu_frame *frame = r->frame.memory.mapped;
     view_frame(&p->view, tile, offset, frame);
     surround_frame(&r->resident.surround, p->scene, frame);
+    set_parts(p, frame);
     frame->exposure = p->options->exposure;
     frame->footprint = 1 / sqrtf((float)p->frames);
     lights_frame(&r->resident.lights, frame);

@@ -165,7 +165,6 @@ static void add_ambient(const ag_light_desc *d, lights *l)
         l->ambient[i].y += bounded(terms[i][1] * color[1] * d->intensity);
         l->ambient[i].z += bounded(terms[i][2] * color[2] * d->intensity);
     }
-    l->ambient_present = true;
 }
 
 static size_t count_placed(const ag_scene *scene)
@@ -176,9 +175,16 @@ static size_t count_placed(const ag_scene *scene)
     return count;
 }
 
-// In the order of their kinds.
-static void place(const ag_scene *scene, size_t count, float exposure, lights *l)
+// Whether light `i` lights surfaces in this picture.
+static bool is_part(const ag_render_options *o, size_t i)
 {
+    return o->parts & AG_PART_LIGHTS && (!o->light.id || o->light.id == i + 1);
+}
+
+// In the order of their kinds.
+static void place(const ag_scene *scene, size_t count, const ag_render_options *o, lights *l)
+{
+    float exposure = o->format == AG_FORMAT_RGBA32F ? INFINITY : o->exposure;
     gpu_light *out = l->all.memory.mapped;
     l->bodies = (uint32_t)count;
     l->count = 0;
@@ -191,6 +197,8 @@ static void place(const ag_scene *scene, size_t count, float exposure, lights *l
                 continue;
             gpu_light *light = &out[l->count++];
             *light = pack(d);
+            if (!is_part(o, i))
+                light->intensity = (float3) { 0, 0, 0 };
             if (count > FEW)
                 bound_range(light, count, exposure);
         }
@@ -199,7 +207,21 @@ static void place(const ag_scene *scene, size_t count, float exposure, lights *l
     }
 }
 
-ag_status lights_write(gpu_device *device, const ag_scene *scene, float exposure, lights *l)
+static void sum_ambient(const ag_scene *scene, const ag_render_options *o, lights *l)
+{
+    l->ambient_present = false;
+    memset(l->ambient, 0, sizeof l->ambient);
+    for (size_t i = 0; i < scene->lights_count; i++) {
+        if (!light_is_ambient(scene->lights[i].kind))
+            continue;
+        l->ambient_present = true; // also where it is dark: variants are dear
+        if (is_part(o, i))
+            add_ambient(&scene->lights[i], l);
+    }
+}
+
+ag_status lights_write(gpu_device *device, const ag_scene *scene, const ag_render_options *o,
+                       lights *l)
 {
     size_t count = count_placed(scene);
     ag_status status =
@@ -213,15 +235,11 @@ ag_status lights_write(gpu_device *device, const ag_scene *scene, float exposure
                                    &l->clusters);
     if (status)
         return status;
-    place(scene, count, exposure, l);
+    place(scene, count, o, l);
     uint32_t punctual = l->ends[GPU_LIGHTS_PUNCTUAL];
     memcpy(l->near.memory.mapped, l->all.memory.mapped,
            (punctual < GPU_LIGHTS_NEAR ? punctual : GPU_LIGHTS_NEAR) * sizeof(gpu_light));
-    l->ambient_present = false;
-    memset(l->ambient, 0, sizeof l->ambient);
-    for (size_t i = 0; i < scene->lights_count; i++)
-        if (light_is_ambient(scene->lights[i].kind))
-            add_ambient(&scene->lights[i], l);
+    sum_ambient(scene, o, l);
     return AG_OK;
 }
 

@@ -5,6 +5,8 @@
 #ifndef AG_RENDER_LIGHTS_H
 #define AG_RENDER_LIGHTS_H
 
+#include <argand/renderer.h>
+
 #include "gpu/buffer.h"
 #include "render/view.h"
 #include "scene/scene.h"
@@ -21,11 +23,11 @@ typedef struct lights {
     float3 ambient[9]; // ambient_light of ambient.glsl
 } lights;
 
-// Write the scene's lights.  Where there are many, each that has no range gets one: beyond it
-// the light would add nothing that can be seen at this exposure, INFINITY for pictures that are
-// yet to be exposed.
-AG_CHECK ag_status lights_write(gpu_device *device, const ag_scene *scene, float exposure,
-                                lights *l);
+// Write the scene's lights, as far as they are part of the picture: the others are dark.  Where
+// there are many, each that has no range gets one: beyond it the light would add nothing that
+// can be seen at the picture's exposure.  Pictures of floats are yet to be exposed.
+AG_CHECK ag_status lights_write(gpu_device *device, const ag_scene *scene,
+                                const ag_render_options *options, lights *l);
 void lights_destroy(gpu_device *device, lights *l); // zero is allowed
 
 // The lights' part of the surfaces' constants, and of a frame.

@@ -151,9 +151,7 @@ static ag_status prepare(ag_renderer *r, picture *p, ag_render_stats *stats)
     if (!status)
         status = resident_surround(r, p->scene, p->background, stats);
     if (!status)
-        status = lights_write(r->device, p->scene,
-                              o->format == AG_FORMAT_RGBA32F ? INFINITY : o->exposure,
-                              &r->resident.lights);
+        status = lights_write(r->device, p->scene, o, &r->resident.lights);
     if (!status)
         status = upload_instances(r, &p->draws);
     if (status)
