@@ -104,7 +104,8 @@ typedef enum ag_area_lights {
     AG_AREA_LIGHTS_REPRESENTATIVE_POINT,
 } ag_area_lights;
 
-// What of the light is in a picture, to see the rest without it.
+// What of the light is in a picture; linear pictures of the parts sum to the whole.  What is left
+// out is black, not away: it still hides what is behind it.
 typedef enum ag_part {
     AG_PART_SEEN = 1,     // what shines into the eye itself: background, lights' bodies, emission
     AG_PART_LIGHTS = 2,   // surfaces under lights, ambient ones among them
