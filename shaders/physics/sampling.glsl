@@ -64,4 +64,64 @@ static inline real sampling_visible_normal_density(vec3 wo, vec3 h, real alpha)
     return microfacet_g1(wo[2], a2) * VoH * microfacet_d(h[2], a2) / wo[2];
 }
 
+// ---- Lobes -------------------------------------------------------------------
+
+// How far down the spherical cap of visible normals must reach, so that all that reflects
+// upwards is in it.  Eto & Tokuyoshi 2023, eqs. 5 and 6.
+static inline real sampling_ggx_bound(vec3 wo, real ax, real ay)
+{
+    real a = min(min(ax, ay), 1.0f);
+    real s = 1.0f + sqrt(wo[0] * wo[0] + wo[1] * wo[1]);
+    return (1.0f - a * a) * s * s / (s * s + a * a * wo[2] * wo[2]);
+}
+
+// A half vector of an anisotropic GGX lobe: a visible normal of those that may reflect upwards.
+// wo.z > 0; wi = reflect(-wo, h) may still be below the horizon: no light comes from there.
+// Neither h.z nor the radius is formed from z, which has lost their digits.
+static inline vec3 sampling_ggx(vec3 wo, real ax, real ay, vec2 u)
+{
+    vec3 v = normalize(vec3(ax * wo[0], ay * wo[1], wo[2]));
+    real k = sampling_ggx_bound(wo, ax, ay);
+    real below = u[1] * (1.0f + k * v[2]); // the top of the cap
+    real s = sqrt(max(below * (2.0f - below), 0.0f));
+    real phi = 2.0f * PI * u[0];
+    real z = (1.0f - u[1]) * (1.0f + k * v[2]) + (1.0f - k) * v[2];
+    return normalize(vec3(ax * (s * cos(phi) + v[0]), ay * (s * sin(phi) + v[1]), z));
+}
+
+// Density of wi, 1/sr; 0 below the horizon.  That of all visible normals has k = 1.
+static inline real sampling_ggx_density(vec3 wo, vec3 wi, real ax, real ay)
+{
+    if (wi[2] <= 0.0f)
+        return 0.0f;
+    vec3 v = vec3(ax * wo[0], ay * wo[1], wo[2]);
+    real reach = sampling_ggx_bound(wo, ax, ay) * wo[2] + sqrt(dot(v, v));
+    return 0.5f * microfacet_d_anisotropic(wo + wi, ax, ay) / reach;
+}
+
+// 1 - exp(-x), x >= 0.
+static inline real sampling_fall(real x)
+{
+    return x < 0.03f ? x * (1.0f - x * (0.5f - x / 6.0f)) : 1.0f - exp(-x);
+}
+
+// A direction of light by Blinn's lobe, its half vector of density (shininess + 1) / 2 pi
+// (n.h)^shininess; Blinn 1977.  It may be below the horizon.
+static inline vec3 sampling_blinn(vec3 wo, real shininess, vec2 u)
+{
+    real x = -2.0f * log(1.0f - u[0]) / (shininess + 1.0f);
+    real s = sqrt(sampling_fall(x)); // cos^2 = exp(-x)
+    real phi = 2.0f * PI * u[1];
+    return reflect(-wo, vec3(s * cos(phi), s * sin(phi), exp(-0.5f * x)));
+}
+
+// Density of wi, 1/sr; 0 below the horizon.
+static inline real sampling_blinn_density(vec3 wo, vec3 wi, real shininess)
+{
+    vec3 h = wo + wi;
+    real VoH = max(0.5f * sqrt(dot(h, h)), 1e-6f);
+    real lobe = 0.125f * (shininess + 1.0f) * microfacet_blinn(0.5f * h[2] / VoH, shininess) / VoH;
+    return wi[2] > 0.0f ? lobe : 0.0f;
+}
+
 #endif
