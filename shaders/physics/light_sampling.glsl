@@ -27,6 +27,15 @@ static inline light_sample light_sample_none(void)
     return s;
 }
 
+static inline light_sample light_sample_at(vec3 to, real density)
+{
+    light_sample s;
+    s.distance = sqrt(max(dot(to, to), LIGHT_LEAST));
+    s.direction = to / s.distance;
+    s.density = density;
+    return s;
+}
+
 // Two unit vectors across a third and each other.  Duff et al. 2017, listing 3.
 STRUCT(light_across) {
     vec3 x;
@@ -136,8 +145,8 @@ static inline real light_hit_sphere(vec3 center, real radius, vec3 wi)
 
 // ---- flat lights --------------------------------------------------------------------------------
 
-// A rectangle, or what bounds an ellipse, in a frame along its sides: it spans low to high, high >=
-// |low|, in the plane z = height >= 0.
+// A rectangle in a frame along its sides: it spans low to high, high >= |low|, in the plane z =
+// height >= 0.
 STRUCT(light_panel) {
     vec3 x;
     vec3 y;
@@ -162,16 +171,6 @@ static inline light_panel light_panel_from(vec3 c, vec3 half_x, vec3 half_y)
     p.high = vec2(dot(c, p.x) + size_x, dot(c, p.y) + size_y);
     p.height = dot(c, p.z);
     return p;
-}
-
-static inline light_sample light_panel_sample(light_panel p, real x, real y, real density)
-{
-    vec3 to = x * p.x + y * p.y + p.height * p.z;
-    light_sample s;
-    s.distance = sqrt(max(dot(to, to), LIGHT_LEAST));
-    s.direction = to / s.distance;
-    s.density = density;
-    return s;
 }
 
 // Van Oosterom & Strackee 1983, eq. 8: the solid angle of a triangle; `volume` = |a . (b x c)|.
@@ -261,7 +260,7 @@ static inline light_sample light_sample_rect(vec3 c, vec3 x, vec3 y, vec2 u)
     if (angle < 0.01f)
         px = light_panel_polish(p, px, u[0] * angle);
     real py = light_raise(p.low[1], p.high[1], px * px + p.height * p.height, u[1]);
-    return light_panel_sample(p, px, py, 1.0f / angle);
+    return light_sample_at(px * p.x + py * p.y + p.height * p.z, 1.0f / angle);
 }
 
 // Of directions that hit.
@@ -308,70 +307,109 @@ static inline real light_hit_disk(vec3 c, vec3 x, vec3 y, vec3 wi)
 
 // ---- disks --------------------------------------------------------------------------------------
 
-// Planes through the place and along y cut an ellipse in chords.  Their angle about y has the
-// density of a semicircle over the angle under which the ellipse is seen; the sine of the elevation
-// over y = 0 is uniform between the chord's ends.  Seen from afar, that is uniform.
+// An ellipse in the plane z = height >= 0, x from the place's foot towards its centre: at x = low +
+// e size, e in [0, 2], its chord is along y.  The planes through the place and the chords turn by
+// `turn` about y: of their angle the density is a semicircle, which is that of a small disk's
+// chords, and in each the sine of the elevation over y = 0 is uniform.
+STRUCT(light_oval) {
+    vec3 x;
+    vec3 y;
+    vec3 z;
+    real height;
+    real low;
+    real size;
+    real slope; // of the chords' middles
+    real chord; // half the longest
+    real turn;
+};
+
+static inline real light_oval_turn(light_oval o, real x)
+{
+    return atan2(o.height * (x - o.low), o.height * o.height + o.low * x);
+}
+
+static inline light_oval light_oval_from(vec3 c, vec3 half_x, vec3 half_y)
+{
+    light_oval o;
+    vec3 n = cross(half_x, half_y);
+    o.z = n / max(sqrt(dot(n, n)), LIGHT_LEAST);
+    o.z = dot(c, o.z) < 0.0f ? -o.z : o.z;
+    o.height = dot(c, o.z);
+    vec3 off = c - o.height * o.z;
+    bool aside = dot(off, off) > 1e-4f * dot(c, c);
+    off = aside ? off - dot(off, o.z) * o.z : half_x;
+    o.x = off / max(sqrt(dot(off, off)), LIGHT_LEAST);
+    o.y = cross(o.z, o.x);
+    vec2 along = vec2(dot(half_x, o.x), dot(half_y, o.x));
+    vec2 across = vec2(dot(half_x, o.y), dot(half_y, o.y));
+    o.size = sqrt(max(along[0] * along[0] + along[1] * along[1], LIGHT_LEAST));
+    o.slope = (along[0] * across[0] + along[1] * across[1]) / o.size;
+    real area = along[0] * across[1] - along[1] * across[0];
+    o.chord = max(area, -area) / o.size;
+    o.low = dot(c, o.x) - o.size;
+    o.turn = light_oval_turn(o, o.low + 2.0f * o.size);
+    return o;
+}
+
+// A chord; its ends' y times `way`, which puts its middle above 0.
 STRUCT(light_chord) {
-    real low; // y of its ends
+    real x;
+    real low;
     real high;
+    real way;
     real density;
 };
 
-// At x = p.low + e times the half width, `turn` of the angle `all`.
-static inline light_chord light_chord_at(light_panel p, real e, real turn, real all)
+// `turn` = of its plane from that of e = 0.
+static inline light_chord light_oval_chord(light_oval o, real e, real turn)
 {
-    real size = 0.5f * (p.high[1] - p.low[1]) * sqrt(max(e * (2.0f - e), LIGHT_LEAST));
-    real middle = 0.5f * (p.high[1] + p.low[1]);
-    real x = p.low[0] + 0.5f * e * (p.high[0] - p.low[0]);
-    real s = 2.0f * turn / all;
+    real share = 2.0f * turn / o.turn;
+    real reach = o.chord * sqrt(e * (2.0f - e));
+    real middle = o.slope * (e - 1.0f);
     light_chord c;
-    c.low = middle - size;
-    c.high = middle + size;
-    c.density = 4.0f * INV_PI * sqrt(max(s * (2.0f - s), LIGHT_LEAST)) /
-                max(all * light_rise(c.low, c.high, x * x + p.height * p.height), LIGHT_LEAST);
+    c.x = o.low + e * o.size;
+    c.way = middle < 0.0f ? -1.0f : 1.0f;
+    c.low = c.way * middle - reach;
+    c.high = c.way * middle + reach;
+    real rise = light_rise(c.low, c.high, c.x * c.x + o.height * o.height);
+    c.density = 4.0f * INV_PI * sqrt(max(share * (2.0f - share), 0.0f)) /
+                max(o.turn * rise, LIGHT_LEAST);
     return c;
 }
 
-// The angle under which a panel's width is seen from the foot of y.
-static inline real light_panel_turn(light_panel p, real x)
+// Where chords still have a length.
+static inline real light_oval_place(real e)
 {
-    return atan2(p.height * (x - p.low[0]), p.height * p.height + p.low[0] * x);
+    return clamp(e, 1e-6f, 2.0f - 1e-6f);
 }
 
 // An ellipse; `x`, `y` = its half axes.
 static inline light_sample light_sample_disk(vec3 c, vec3 x, vec3 y, vec2 u)
 {
-    light_panel p = light_panel_from(c, x, y);
-    real all = light_panel_turn(p, p.high[0]);
-    if (!(p.height > 0.0f && all > LIGHT_LEAST))
+    light_oval o = light_oval_from(c, x, y);
+    if (!(o.height > 0.0f && o.turn > LIGHT_LEAST))
         return light_sample_none();
-    real r = sqrt(u[0]);
     real phi = 2.0f * PI * u[1];
-    real across = r * sin(phi);
-    real size = sqrt(max(1.0f - u[0] + across * across, LIGHT_LEAST)); // of the disk's chord
-    real turn = 0.5f * all * (1.0f + r * cos(phi));
-    real v = clamp(0.5f + 0.5f * across / size, 0.0f, 1.0f);
-    real s = sin(turn);
-    real d2 = p.height * p.height + p.low[0] * p.low[0];
-    real step = s * d2 / max(p.height * cos(turn) - p.low[0] * s, LIGHT_LEAST);
-    real e = clamp(2.0f * step / (p.high[0] - p.low[0]), 1e-6f, 2.0f - 1e-6f);
-    light_chord k = light_chord_at(p, e, turn, all);
-    real px = p.low[0] + 0.5f * e * (p.high[0] - p.low[0]);
-    real py = light_raise(k.low, k.high, px * px + p.height * p.height, v);
-    return light_panel_sample(p, px, py, k.density);
+    real across = sqrt(u[0]) * sin(phi);
+    real reach = sqrt(max(1.0f - u[0] + across * across, LIGHT_LEAST));
+    real turn = 0.5f * o.turn * (1.0f + sqrt(u[0]) * cos(phi));
+    real step = sin(turn) * (o.height * o.height + o.low * o.low) /
+                max(o.height * cos(turn) - o.low * sin(turn), LIGHT_LEAST);
+    light_chord k = light_oval_chord(o, light_oval_place(step / o.size), turn);
+    real v = clamp(0.5f + 0.5f * across / reach, 0.0f, 1.0f);
+    real at = k.way * light_raise(k.low, k.high, k.x * k.x + o.height * o.height, v);
+    return light_sample_at(k.x * o.x + at * o.y + o.height * o.z, k.density);
 }
 
 // Of a direction that hits.
 static inline real light_density_disk(vec3 c, vec3 x, vec3 y, vec3 wi)
 {
-    light_panel p = light_panel_from(c, x, y);
-    real towards = dot(p.z, wi);
-    real all = light_panel_turn(p, p.high[0]);
-    if (!(towards > 0.0f && all > LIGHT_LEAST))
+    light_oval o = light_oval_from(c, x, y);
+    real towards = dot(o.z, wi);
+    if (!(o.height > 0.0f && towards > 0.0f && o.turn > LIGHT_LEAST))
         return 0.0f;
-    real px = clamp(dot(p.x, wi) * p.height / towards, p.low[0], p.high[0]);
-    real e = clamp(2.0f * (px - p.low[0]) / (p.high[0] - p.low[0]), 1e-6f, 2.0f - 1e-6f);
-    return light_chord_at(p, e, light_panel_turn(p, px), all).density;
+    real e = light_oval_place((dot(o.x, wi) * o.height / towards - o.low) / o.size);
+    return light_oval_chord(o, e, light_oval_turn(o, o.low + e * o.size)).density;
 }
 
 // ---- tubes --------------------------------------------------------------------------------------
@@ -568,12 +606,9 @@ static inline light_sample light_sample_triangle(vec3 a, vec3 b, vec3 c, vec2 u)
 {
     real r = sqrt(u[0]);
     vec3 to = (1.0f - r) * a + r * (1.0f - u[1]) * b + r * u[1] * c;
-    real d2 = max(dot(to, to), LIGHT_LEAST);
-    real towards = dot(cross(b - a, c - a), to); // 2 area cos distance
-    light_sample s;
-    s.distance = sqrt(d2);
-    s.direction = to / s.distance;
-    s.density = 2.0f * d2 * s.distance / max(max(towards, -towards), LIGHT_LEAST);
+    light_sample s = light_sample_at(to, 0.0f);
+    real towards = dot(cross(b - a, c - a), s.direction); // 2 area cos
+    s.density = 2.0f * s.distance * s.distance / max(max(towards, -towards), LIGHT_LEAST);
     return s;
 }
 

@@ -124,4 +124,65 @@ static inline real sampling_blinn_density(vec3 wo, vec3 wi, real shininess)
     return wi[2] > 0.0f ? lobe : 0.0f;
 }
 
+// EON's reflection of light from wo, but for albedo: a cosine lobe, cut at the horizon and sent
+// through a matrix, and a share of all directions alike.  Portsmouth, Kutz & Hill 2025, section 5,
+// fitted for roughness and cosine in [0, 1].
+STRUCT(sampling_eon_lobe) {
+    real a; // the matrix (a 0 b, 0 c 0, d 0 1), its x axis below wo
+    real b;
+    real c;
+    real d;
+    real cut;   // the part of the unit disk that is left of the cosine's
+    real share; // of all directions
+    vec2 x;
+};
+
+static inline sampling_eon_lobe sampling_eon_lobe_from(vec3 wo, real roughness)
+{
+    real r = roughness;
+    real z = wo[2];
+    real s = sqrt(wo[0] * wo[0] + wo[1] * wo[1]);
+    sampling_eon_lobe l;
+    l.a = 1.0f + r * (0.303392f + (0.111709f * z - 0.518982f) * z +
+                      (0.335918f * z - 0.276266f) * r);
+    l.b = r * (1.15859f * z - 1.16407f + (0.150815f - 0.150105f * z) * r) / (z * z * z - 1.43545f);
+    l.c = 1.0f + r * (0.20013f + (0.261777f * z - 0.506373f) * z);
+    l.d = r * (0.540852f + (0.475392f * z - 1.01625f) * z) / ((z + 0.0725628f) * z - 1.0743f);
+    l.cut = 0.5f + 0.5f / sqrt(l.d * l.d + 1.0f);
+    l.share = pow(r, 0.1f) *
+              (0.162925f + ((0.538233f - 0.290822f * z) * z - 0.372058f) * z);
+    l.x = s > 0.0f ? vec2(wo[0], wo[1]) / s : vec2(1.0f, 0.0f);
+    return l;
+}
+
+static inline vec3 sampling_eon(vec3 wo, real roughness, vec2 u)
+{
+    sampling_eon_lobe l = sampling_eon_lobe_from(wo, roughness);
+    real phi = 2.0f * PI * u[1];
+    bool even = u[0] < l.share;
+    real part = even ? u[0] / l.share : (u[0] - l.share) / (1.0f - l.share);
+    real r = sqrt(even ? 1.0f - part * part : part);
+    real x = r * cos(phi);
+    real y = r * sin(phi);
+    if (even)
+        return vec3(x, y, part);
+    x = -mix(sqrt(max(1.0f - y * y, 0.0f)), x, l.cut);
+    real z = sqrt(max(1.0f - x * x - y * y, 0.0f));
+    vec3 w = vec3(l.a * x + l.b * z, l.c * y, max(l.d * x + z, 1e-6f));
+    return normalize(vec3(w[0] * l.x[0] - w[1] * l.x[1], w[0] * l.x[1] + w[1] * l.x[0], w[2]));
+}
+
+// Density of wi, 1/sr; 0 below the horizon.
+static inline real sampling_eon_density(vec3 wo, vec3 wi, real roughness)
+{
+    sampling_eon_lobe l = sampling_eon_lobe_from(wo, roughness);
+    real x = wi[0] * l.x[0] + wi[1] * l.x[1];
+    real y = wi[1] * l.x[0] - wi[0] * l.x[1];
+    real ac = l.a - l.b * l.d;
+    vec3 w = vec3(l.c * (x - l.b * wi[2]), ac * y, l.c * (l.a * wi[2] - l.d * x));
+    real scale = l.c * ac / dot(w, w);
+    real lobe = INV_PI * scale * scale * max(w[2], 0.0f) / l.cut;
+    return wi[2] > 0.0f ? mix(lobe, 0.5f * INV_PI, l.share) : 0.0f;
+}
+
 #endif
