@@ -56,6 +56,12 @@ typedef struct ag_image_save_options {
 AG_CHECK ag_status ag_image_save(const ag_log *log, const ag_image *image, const char *path,
                                  const ag_image_save_options *options);
 
+// The same into memory; the ending of `name` chooses, and it stands for the file in messages.
+// `*data` is the caller's to free().
+AG_CHECK ag_status ag_image_save_memory(const ag_log *log, const ag_image *image, const char *name,
+                                        const ag_image_save_options *options, void **data,
+                                        size_t *size);
+
 // One layer of an OpenEXR file: its channels are "name.R" and so on, those of the layer without
 // a name R, G, B, A.
 typedef struct ag_image_layer {

@@ -159,6 +159,12 @@ AG_CHECK ag_status ag_renderer_render(ag_renderer *renderer, const ag_scene *sce
                                       const ag_render_options *options, ag_image **image,
                                       ag_render_stats *stats);
 
+// Show a linear picture, RGBA32F: what RGBA8 would be of the same light, by `look`'s tonemap and
+// transfer, and over its background_color where its background is that; the linear picture
+// then has to be one over AG_BACKGROUND_TRANSPARENT.  Any number of threads may call it.
+AG_CHECK ag_status ag_image_display(const ag_log *log, const ag_image *linear,
+                                    const ag_render_options *look, ag_image **shown);
+
 #ifdef __cplusplus
 }
 #endif

@@ -61,6 +61,8 @@ struct file_writer {
     char *path;
     char *temporary;
     int fd;
+    char *memory; // instead of a file
+    size_t size, capacity;
 };
 
 static void writer_free(file_writer *writer)
@@ -69,6 +71,7 @@ static void writer_free(file_writer *writer)
         close(writer->fd);
     free(writer->path);
     free(writer->temporary);
+    free(writer->memory);
     free(writer);
 }
 
@@ -109,7 +112,7 @@ ag_status file_writer_open(const ag_log *log, const char *path, file_writer **ou
         free(temporary);
         return log_fail(log, AG_ERROR_MEMORY, "%s: no memory to write it", path);
     }
-    *writer = (file_writer) { log_resolve(log), copy, temporary, -1 };
+    *writer = (file_writer) { log_resolve(log), copy, temporary, .fd = -1 };
     for (unsigned i = 0; i < 100; i++) { // a name of our own, whoever else writes there
         snprintf(temporary, length + 32, "%s.%ld-%u.tmp", copy, (long)getpid(), i);
         writer->fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -126,8 +129,49 @@ ag_status file_writer_open(const ag_log *log, const char *path, file_writer **ou
     return AG_OK;
 }
 
+ag_status file_writer_open_memory(const ag_log *log, const char *name, file_writer **out)
+{
+    *out = NULL;
+    file_writer *writer = calloc(1, sizeof *writer);
+    char *copy = strdup(name);
+    if (!writer || !copy) {
+        free(writer);
+        free(copy);
+        return log_fail(log, AG_ERROR_MEMORY, "%s: no memory to write it", name);
+    }
+    *writer = (file_writer) { log_resolve(log), copy, .fd = -1 };
+    *out = writer;
+    return AG_OK;
+}
+
+void file_writer_take(file_writer *writer, void **data, size_t *size)
+{
+    *data = writer->memory;
+    *size = writer->size;
+    writer->memory = NULL;
+    writer_free(writer);
+}
+
+static ag_status append(file_writer *writer, const void *data, size_t size)
+{
+    if (size > writer->capacity - writer->size) {
+        size_t capacity = 2 * (writer->size + size);
+        char *grown = realloc(writer->memory, capacity);
+        if (!grown)
+            return log_fail(&writer->log, AG_ERROR_MEMORY, "%s: no memory to write it",
+                            writer->path);
+        writer->memory = grown;
+        writer->capacity = capacity;
+    }
+    memcpy(writer->memory + writer->size, data, size);
+    writer->size += size;
+    return AG_OK;
+}
+
 ag_status file_writer_put(file_writer *writer, const void *data, size_t size)
 {
+    if (!writer->temporary)
+        return append(writer, data, size);
     const char *bytes = data;
     while (size) {
         ssize_t n = write(writer->fd, bytes, size);
@@ -161,7 +205,8 @@ void file_writer_abandon(file_writer *writer)
 {
     if (!writer)
         return;
-    unlink(writer->temporary);
+    if (writer->temporary)
+        unlink(writer->temporary);
     writer_free(writer);
 }
 

@@ -17,9 +17,14 @@ AG_CHECK ag_status file_write(const ag_log *log, const char *path, const void *d
 // A writer for encoders that produce their bytes piece by piece.
 typedef struct file_writer file_writer;
 AG_CHECK ag_status file_writer_open(const ag_log *log, const char *path, file_writer **writer);
+// One whose bytes stay in memory.
+AG_CHECK ag_status file_writer_open_memory(const ag_log *log, const char *name,
+                                           file_writer **writer);
 AG_CHECK ag_status file_writer_put(file_writer *writer, const void *data, size_t size);
-// Finish: rename into place.  The writer is gone after either of the two.
+// Finish: rename into place.  The writer is gone after any of the three.
 AG_CHECK ag_status file_writer_commit(file_writer *writer);
+// Finish one in memory: `*data` is the caller's to free().
+void file_writer_take(file_writer *writer, void **data, size_t *size);
 void file_writer_abandon(file_writer *writer); // NULL is allowed
 
 #endif

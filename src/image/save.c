@@ -51,23 +51,23 @@ static ag_status prepare(const ag_log *log, const ag_image *image, const codec *
     return status;
 }
 
-static ag_status write_file(const ag_log *log, const ag_image *image, const char *path,
-                            const codec *to, const ag_image_save_options *options)
+// Into a writer that is finished afterwards or, on failure, gone.
+static ag_status encode(const ag_log *log, const ag_image *image, const char *path,
+                        const ag_image_save_options *options, file_writer *writer)
 {
-    file_writer *writer;
-    ag_status status = file_writer_open(log, path, &writer);
+    const codec *to = find_codec(path);
+    ag_image *made;
+    ag_status status = prepare(log, image, to, &made);
+    if (!status)
+        status = to->encode(log, path, made ? made : image, options, writer);
+    ag_image_destroy(made);
     if (status)
-        return status;
-    status = to->encode(log, path, image, options, writer);
-    if (status) {
         file_writer_abandon(writer);
-        return status;
-    }
-    return file_writer_commit(writer);
+    return status;
 }
 
-ag_status ag_image_save(const ag_log *log, const ag_image *image, const char *path,
-                        const ag_image_save_options *options)
+// Whether that can be done at all; zeros among the options are filled in.
+static ag_status check(const ag_log *log, const char *path, ag_image_save_options *o)
 {
     const codec *to = find_codec(path);
     if (!to)
@@ -75,18 +75,41 @@ ag_status ag_image_save(const ag_log *log, const ag_image *image, const char *pa
                         "%s: the ending names no image format that can be written; it has to be "
                         ".png, .jpg, .jpeg, .webp, .hdr or .exr",
                         path);
-    ag_image_save_options filled = options ? *options : (ag_image_save_options) { 0 };
-    filled.quality = filled.quality ? filled.quality : 92;
-    filled.compression = filled.compression ? filled.compression : 2;
-    if (filled.quality < 1 || filled.quality > 100 || filled.compression < 1 ||
-        filled.compression > 9)
+    o->quality = o->quality ? o->quality : 92;
+    o->compression = o->compression ? o->compression : 2;
+    if (o->quality < 1 || o->quality > 100 || o->compression < 1 || o->compression > 9)
         return log_fail(log, AG_ERROR_ARGUMENT,
                         "%s: quality %d (1 to 100) or compression %d (1 to 9) is out of range",
-                        path, filled.quality, filled.compression);
-    ag_image *made;
-    ag_status status = prepare(log, image, to, &made);
+                        path, o->quality, o->compression);
+    return AG_OK;
+}
+
+ag_status ag_image_save(const ag_log *log, const ag_image *image, const char *path,
+                        const ag_image_save_options *options)
+{
+    ag_image_save_options filled = options ? *options : (ag_image_save_options) { 0 };
+    file_writer *writer;
+    ag_status status = check(log, path, &filled);
     if (!status)
-        status = write_file(log, made ? made : image, path, to, &filled);
-    ag_image_destroy(made);
+        status = file_writer_open(log, path, &writer);
+    if (!status)
+        status = encode(log, image, path, &filled, writer);
+    return status ? status : file_writer_commit(writer);
+}
+
+ag_status ag_image_save_memory(const ag_log *log, const ag_image *image, const char *name,
+                               const ag_image_save_options *options, void **data, size_t *size)
+{
+    ag_image_save_options filled = options ? *options : (ag_image_save_options) { 0 };
+    file_writer *writer;
+    *data = NULL;
+    *size = 0;
+    ag_status status = check(log, name, &filled);
+    if (!status)
+        status = file_writer_open_memory(log, name, &writer);
+    if (!status)
+        status = encode(log, image, name, &filled, writer);
+    if (!status)
+        file_writer_take(writer, data, size);
     return status;
 }

@@ -409,6 +409,34 @@ static void test_endings(void **state)
     ag_image_destroy(image);
 }
 
+// The same bytes, wherever they go.
+static void test_memory(void **state)
+{
+    const folder *f = *state;
+    ag_image *image = make_bytes(40, 30, true);
+    static const char *const names[] = { "a.png", "a.jpg", "a.webp", "a.hdr", "a.exr" };
+    for (int i = 0; i < 5; i++) {
+        char path[128];
+        snprintf(path, sizeof path, "%s/%s", f->path, names[i]);
+        assert_int_equal(ag_image_save(NULL, image, path, NULL), AG_OK);
+        void *kept, *wanted;
+        size_t size, wanted_size;
+        assert_int_equal(ag_image_save_memory(NULL, image, names[i], NULL, &kept, &size), AG_OK);
+        assert_int_equal(file_read(NULL, path, 1 << 20, &wanted, &wanted_size), AG_OK);
+        assert_int_equal(size, wanted_size);
+        assert_memory_equal(kept, wanted, size);
+        free(kept);
+        free(wanted);
+    }
+    kept_log kept;
+    ag_log log = log_that_keeps(&kept);
+    void *data;
+    size_t size;
+    assert_int_equal(ag_image_save_memory(&log, image, "a", NULL, &data, &size), AG_ERROR_ARGUMENT);
+    assert_null(data);
+    ag_image_destroy(image);
+}
+
 static void test_too_large(void **state)
 {
     const folder *f = *state;
@@ -524,6 +552,7 @@ int main(void)
         WITH_FOLDER(test_hdr_extremes),
         WITH_FOLDER(test_exr),
         WITH_FOLDER(test_exr_sizes),
+        WITH_FOLDER(test_memory),
         WITH_FOLDER(test_endings),
         WITH_FOLDER(test_too_large),
         WITH_FOLDER(test_no_folder),
