@@ -14,11 +14,12 @@ typedef struct ag_compare_options {
 } ag_compare_options;
 
 // Bytes are taken as sRGB-coded.  Alpha is composited over white first, as coded (bytes) or
-// linear (floats), as a browser would.
+// linear (floats), as a browser would.  NaN counts as 0.
 typedef struct ag_difference {
     // FLIP, what a person sees switching between the two: the mean and the greatest error, in
     // [0, 1].  Bytes: LDR-FLIP, Andersson et al. 2020.  Floats: HDR-FLIP, Andersson et al. 2021,
-    // over the exposures from ev_start to ev_stop.
+    // the greatest over the exposures from ev_start, where the reference's brightest pixel comes
+    // out at 0.85, to ev_stop, where its median does (of those not black, where most are).
     float flip, flip_max;
     uint32_t worst_x, worst_y; // px from the upper left, where it is greatest
     float ev_start, ev_stop;   // stops; 0 of bytes
@@ -28,9 +29,11 @@ typedef struct ag_difference {
     double ssim; // of coded luma; Wang et al. 2004, Gaussian windows of 1.5 px
 } ag_difference;
 
-// Compare two images of one size and format.  The error map is left in `*heat` (NULL -> not
-// wanted) as RGBA8, from black by violet and orange to pale yellow.  NULL options -> defaults.
-// AG_ERROR_ARGUMENT where size or format differ.  Any number of threads may compare.
+// Compare two images of one size and format, on all cores; floats take as long for each
+// exposure as bytes take at once.  The error map is left in `*heat` (NULL -> not wanted) as RGBA8,
+// from black by violet and orange to pale yellow, its lightness rising evenly.  NULL options ->
+// defaults.  AG_ERROR_ARGUMENT where size or format differ, or pixels_per_degree is outside [10,
+// 500].  Any number of threads may compare.
 AG_CHECK ag_status ag_image_compare(const ag_log *log, const ag_image *reference,
                                     const ag_image *test, const ag_compare_options *options,
                                     ag_difference *difference, ag_image **heat);
