@@ -63,15 +63,17 @@ AG_CHECK ag_status ag_image_save_memory(const ag_log *log, const ag_image *image
                                         size_t *size);
 
 // One layer of an OpenEXR file: its channels are "name.R" and so on, those of the layer without
-// a name R, G, B, A.
+// a name R, G, B, A, which is what ag_image_load reads.
 typedef struct ag_image_layer {
-    const char *name;      // NULL or "" -> the picture itself
+    const char *name;      // at most 29 bytes; NULL or "" -> the picture itself
     const ag_image *image; // RGBA32F
-    const char *channels; // as its four are to be called: "RGBA", "RGB", "XYZ", "Z"; NULL -> "RGBA"
+    const char *channels;  // as its first ones are to be called, a letter each: "RGB", "XYZ", "Z";
+                           // NULL -> "RGBA", whose colours are multiplied by alpha
 } ag_image_layer;
 
 // Write images of one size as the layers of one OpenEXR file, as ag_image_save does.
-// AG_ERROR_ARGUMENT unless the name ends in .exr, sizes agree, all are RGBA32F and names differ.
+// AG_ERROR_ARGUMENT unless the path ends in .exr, there is a layer, sizes agree, all are RGBA32F,
+// names differ and channels are one to four different letters.
 AG_CHECK ag_status ag_image_save_layers(const ag_log *log, const ag_image_layer *layers,
                                         size_t count, const char *path);
 

@@ -24,6 +24,11 @@ AG_CHECK image_encoder image_encode_webp;
 AG_CHECK image_encoder image_encode_hdr;
 AG_CHECK image_encoder image_encode_exr;
 
+// RGBA32F images of one size as the channels of one file; their names have been checked.
+AG_CHECK ag_status image_encode_exr_layers(const ag_log *log, const char *name,
+                                           const ag_image_layer *layers, size_t count,
+                                           file_writer *out);
+
 // A header may claim any size.  False, before any memory is taken, when `bytes` of a
 // format that can at best hold `pixels_per_byte` cannot hold width x height.
 static inline bool codec_size_is_plausible(uint64_t width, uint64_t height, uint64_t bytes,

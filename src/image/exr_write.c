@@ -1,5 +1,6 @@
-// OpenEXR, writing: one part of zipped scanlines, colours multiplied by alpha, which is
-// left out where it is 1 everywhere.  Half where that loses nothing, else float.
+// OpenEXR, writing: one part of zipped scanlines, whose channels are those of all layers.  Colours
+// are multiplied by alpha, which is left out where it is 1 everywhere.  Half where that loses
+// nothing in a layer, else float.
 #include "image/codec.h"
 
 #include "base/array.h"
@@ -7,6 +8,7 @@
 #include "image/half.h"
 
 #include <openexr.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,49 +41,118 @@ static void ignore_reason(exr_const_context_t exr, exr_result_t code, const char
     (void)exr, (void)code, (void)message;
 }
 
-typedef struct form {
-    bool half, opaque;
-} form;
+// A layer on its way: its pixels are taken as `channels` names their first components.
+typedef struct layer {
+    const char *name;
+    const ag_image *image;
+    const char *channels;
+    int channel_count;
+    bool half, multiply; // colours by alpha
+    float *rows;         // ROWS_PER_CHUNK of them, four values a pixel
+    uint16_t *halves;    // the same
+} layer;
 
-static void premultiply(const float *in, float *out, size_t pixels, bool opaque)
+static void load_rows(const layer *l, uint32_t y, uint32_t count)
 {
-    memcpy(out, in, pixels * 4 * sizeof *in);
-    for (size_t i = 0; i < pixels && !opaque; i++)
+    size_t pixels = (size_t)l->image->width * count;
+    memcpy(l->rows, (const float *)l->image->pixels + (size_t)y * l->image->width * 4,
+           pixels * 4 * sizeof *l->rows);
+    for (size_t i = 0; i < pixels && l->multiply; i++)
         for (size_t c = 0; c < 3; c++)
-            out[4 * i + c] *= in[4 * i + 3];
+            l->rows[4 * i + c] *= l->rows[4 * i + 3];
+    if (l->half)
+        half_from_floats(l->rows, l->halves, pixels * 4);
 }
 
-static bool fits_half(const float *values, size_t count)
+static bool fits_half(float value)
 {
-    size_t i = 0;
-    while (i < count && half_to_float(half_from_float(values[i])) == values[i])
-        i++;
-    return i == count;
+    return half_to_float(half_from_float(value)) == value;
 }
 
-// Whether all of the image, as it is written, can be halves; `row` is room for a row.
-static bool all_fit_half(const ag_image *image, bool opaque, float *row)
+// Whether all that is written of a layer can be halves.
+static bool all_fit_half(const layer *l)
 {
-    size_t width = image->width;
-    for (uint32_t y = 0; y < image->height; y++) {
-        premultiply((const float *)image->pixels + y * width * 4, row, width, opaque);
-        if (!fits_half(row, width * 4))
-            return false;
+    size_t values = (size_t)l->image->width * 4, channels = (size_t)l->channel_count;
+    for (uint32_t y = 0; y < l->image->height; y++) {
+        load_rows(l, y, 1);
+        for (size_t i = 0; i < values; i++)
+            if (i % 4 < channels && !fits_half(l->rows[i]))
+                return false;
     }
     return true;
 }
 
-static exr_result_t begin(exr_context_t exr, const ag_image *image, form f)
+static void layer_finish(layer *l)
+{
+    free(l->rows);
+    free(l->halves);
+}
+
+// False when there is no memory.
+static bool layer_init(layer *l, const ag_image_layer *from)
+{
+    size_t values = (size_t)from->image->width * ROWS_PER_CHUNK * 4;
+    *l = (layer) {
+        .name = from->name ? from->name : "",
+        .image = from->image,
+        .channels = from->channels ? from->channels : "RGBA",
+        .rows = malloc(values * sizeof *l->rows),
+        .halves = malloc(values * sizeof *l->halves),
+    };
+    if (!l->rows || !l->halves)
+        return false;
+    l->channel_count = (int)strlen(l->channels);
+    if (l->channel_count == 4 && l->channels[3] == 'A') {
+        l->multiply = !image_is_opaque(l->image);
+        l->channel_count -= !l->multiply;
+    }
+    l->half = all_fit_half(l);
+    return true;
+}
+
+typedef struct channel_name {
+    char text[64];
+} channel_name;
+
+static channel_name name_channel(const layer *l, int channel)
+{
+    channel_name name;
+    snprintf(name.text, sizeof name.text, "%s%s%c", l->name, *l->name ? "." : "",
+             l->channels[channel]);
+    return name;
+}
+
+// A file's layers, all of one size.
+typedef struct layers {
+    layer *items;
+    size_t count;
+} layers;
+
+static exr_pixel_type_t pixel_type(const layer *l)
+{
+    return l->half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+}
+
+// The library keeps channels in the order of their names.
+static exr_result_t add_channels(exr_context_t exr, int part, const layer *l)
+{
+    exr_result_t code = EXR_ERR_SUCCESS;
+    for (int i = 0; i < l->channel_count && !code; i++)
+        code = exr_add_channel(exr, part, name_channel(l, i).text, pixel_type(l),
+                               EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    return code;
+}
+
+static exr_result_t begin(exr_context_t exr, const layers *all)
 {
     int part;
+    const ag_image *first = all->items[0].image;
     exr_result_t code = exr_add_part(exr, NULL, EXR_STORAGE_SCANLINE, &part);
     if (!code)
-        code = exr_initialize_required_attr_simple(exr, part, (int)image->width, (int)image->height,
+        code = exr_initialize_required_attr_simple(exr, part, (int)first->width, (int)first->height,
                                                    EXR_COMPRESSION_ZIP);
-    exr_pixel_type_t type = f.half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
-    static const char *const names[] = { "A", "B", "G", "R" };
-    for (int i = f.opaque ? 1 : 0; i < 4 && !code; i++)
-        code = exr_add_channel(exr, part, names[i], type, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    for (size_t i = 0; i < all->count && !code; i++)
+        code = add_channels(exr, part, &all->items[i]);
     const exr_attr_chromaticities_t rec709 = { 0.64f, 0.33f, 0.30f,   0.60f,
                                                0.15f, 0.06f, 0.3127f, 0.3290f };
     if (!code)
@@ -89,8 +160,26 @@ static exr_result_t begin(exr_context_t exr, const ag_image *image, form f)
     return code ? code : exr_write_header(exr);
 }
 
+static void point_channel(exr_coding_channel_info_t *channel, const layers *all)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        const layer *l = &all->items[i];
+        for (int c = 0; c < l->channel_count; c++) {
+            if (strcmp(channel->channel_name, name_channel(l, c).text) != 0)
+                continue;
+            int16_t bytes = l->half ? 2 : 4;
+            const void *rows = l->half ? (const void *)l->halves : (const void *)l->rows;
+            channel->encode_from_ptr = (const uint8_t *)rows + c * bytes;
+            channel->user_data_type = (uint16_t)pixel_type(l);
+            channel->user_bytes_per_element = bytes;
+            channel->user_pixel_stride = 4 * bytes;
+            channel->user_line_stride = (int32_t)l->image->width * 4 * bytes;
+        }
+    }
+}
+
 static exr_result_t encode_chunk(exr_context_t exr, exr_encode_pipeline_t *pipeline, uint32_t y,
-                                 size_t width, form f, const void *rows)
+                                 const layers *all)
 {
     exr_chunk_info_t chunk;
     exr_result_t code = exr_write_scanline_chunk_info(exr, 0, (int)y, &chunk);
@@ -100,81 +189,79 @@ static exr_result_t encode_chunk(exr_context_t exr, exr_encode_pipeline_t *pipel
                      : exr_encoding_update(exr, 0, &chunk, pipeline);
     if (code)
         return code;
-    size_t bytes = f.half ? 2 : 4;
-    for (int i = 0; i < pipeline->channel_count; i++) {
-        exr_coding_channel_info_t *channel = &pipeline->channels[i];
-        size_t slot = (size_t)(strchr("RGBA", channel->channel_name[0]) - "RGBA");
-        channel->encode_from_ptr = (const uint8_t *)rows + slot * bytes;
-        channel->user_data_type = f.half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
-        channel->user_bytes_per_element = (int16_t)bytes;
-        channel->user_pixel_stride = (int32_t)(4 * bytes);
-        channel->user_line_stride = (int32_t)(width * 4 * bytes);
-    }
+    for (int i = 0; i < pipeline->channel_count; i++)
+        point_channel(&pipeline->channels[i], all);
     if (first)
         code = exr_encoding_choose_default_routines(exr, 0, pipeline);
     return code ? code : exr_encoding_run(exr, 0, pipeline);
 }
 
-// `rows` is room for ROWS_PER_CHUNK rows of floats, `halves` for as many halves.
-static exr_result_t encode_rows(exr_context_t exr, const ag_image *image, form f, float *rows,
-                                uint16_t *halves)
+static exr_result_t encode_rows(exr_context_t exr, const layers *all)
 {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t code = EXR_ERR_SUCCESS;
-    size_t width = image->width;
-    for (uint32_t y = 0; y < image->height && !code; y += ROWS_PER_CHUNK) {
-        uint32_t left = image->height - y, count = left < ROWS_PER_CHUNK ? left : ROWS_PER_CHUNK;
-        const float *pixels = (const float *)image->pixels + y * width * 4;
-        premultiply(pixels, rows, count * width, f.opaque);
-        if (f.half)
-            half_from_floats(rows, halves, count * width * 4);
-        code = encode_chunk(exr, &pipeline, y, width, f,
-                            f.half ? (const void *)halves : (const void *)rows);
+    uint32_t height = all->items[0].image->height;
+    for (uint32_t y = 0; y < height && !code; y += ROWS_PER_CHUNK) {
+        uint32_t left = height - y;
+        for (size_t i = 0; i < all->count; i++)
+            load_rows(&all->items[i], y, left < ROWS_PER_CHUNK ? left : ROWS_PER_CHUNK);
+        code = encode_chunk(exr, &pipeline, y, all);
     }
     exr_encoding_destroy(exr, &pipeline);
     return code;
 }
 
-static exr_result_t encode(const ag_image *image, const char *name, buffer *out)
+static exr_result_t encode(const layers *all, const char *name, buffer *out)
 {
-    size_t values = (size_t)image->width * ROWS_PER_CHUNK * 4;
-    float *rows = malloc(values * sizeof *rows);
-    uint16_t *halves = malloc(values * sizeof *halves);
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
     settings.error_handler_fn = ignore_reason;
     settings.user_data = out;
     settings.write_fn = write_bytes;
     settings.zip_level = 1; // a quarter of the time of the default 4, files 8 % larger
     exr_context_t exr = NULL;
-    exr_result_t code = rows && halves ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
+    exr_result_t code = exr_start_write(&exr, name, EXR_WRITE_FILE_DIRECTLY, &settings);
     if (!code)
-        code = exr_start_write(&exr, name, EXR_WRITE_FILE_DIRECTLY, &settings);
-    if (!code) {
-        form f = { .opaque = image_is_opaque(image) };
-        f.half = all_fit_half(image, f.opaque, rows);
-        code = begin(exr, image, f);
-        if (!code)
-            code = encode_rows(exr, image, f, rows, halves);
-    }
+        code = begin(exr, all);
+    if (!code)
+        code = encode_rows(exr, all);
     exr_result_t finished = exr ? exr_finish(&exr) : EXR_ERR_SUCCESS;
-    free(rows);
-    free(halves);
     return code ? code : finished;
+}
+
+static exr_result_t encode_all(const char *name, const ag_image_layer *from, size_t count,
+                               buffer *out)
+{
+    layers all = { .items = calloc(count, sizeof *all.items), .count = count };
+    bool enough = all.items;
+    for (size_t i = 0; i < count && enough; i++)
+        enough = layer_init(&all.items[i], &from[i]);
+    exr_result_t code = enough ? encode(&all, name, out) : EXR_ERR_OUT_OF_MEMORY;
+    for (size_t i = 0; i < count && all.items; i++)
+        layer_finish(&all.items[i]);
+    free(all.items);
+    return code;
+}
+
+ag_status image_encode_exr_layers(const ag_log *log, const char *name, const ag_image_layer *from,
+                                  size_t count, file_writer *out)
+{
+    uint32_t width = from[0].image->width;
+    if (width > 1 << 24) // rows of 16 lines are counted in 32 bits by the library
+        return log_fail(log, AG_ERROR_UNSUPPORTED,
+                        "%s: an OpenEXR image is at most 2^24 pixels wide, not %u; choose .hdr",
+                        name, width);
+    buffer bytes = { 0 };
+    exr_result_t code = encode_all(name, from, count, &bytes);
+    ag_status status = code ? log_fail(log, AG_ERROR_MEMORY, "%s: cannot be written as OpenEXR: %s",
+                                       name, exr_get_default_error_message(code))
+                            : file_writer_put(out, bytes.bytes, bytes.size);
+    free(bytes.bytes);
+    return status;
 }
 
 ag_status image_encode_exr(const ag_log *log, const char *name, const ag_image *image,
                            const ag_image_save_options *options, file_writer *out)
 {
     (void)options;
-    if (image->width > 1 << 24) // rows of 16 lines are counted in 32 bits by the library
-        return log_fail(log, AG_ERROR_UNSUPPORTED,
-                        "%s: an OpenEXR image is at most 2^24 pixels wide, not %u; choose .hdr",
-                        name, image->width);
-    buffer bytes = { 0 };
-    exr_result_t code = encode(image, name, &bytes);
-    ag_status status = code ? log_fail(log, AG_ERROR_MEMORY, "%s: cannot be written as OpenEXR: %s",
-                                       name, exr_get_default_error_message(code))
-                            : file_writer_put(out, bytes.bytes, bytes.size);
-    free(bytes.bytes);
-    return status;
+    return image_encode_exr_layers(log, name, &(ag_image_layer) { .image = image }, 1, out);
 }
