@@ -29,8 +29,9 @@ typedef struct ag_reference_options {
     bool direct_only;     // no bounces: light comes straight from where it was made
     bool unshadowed;      // nothing stands before a light: with `direct_only`, what
                           // ag_renderer approximates
-    float clamp;          // of a path's radiance, exposed, per bounce of its light; 0 -> none
+    float clamp;          // of what one path adds by one light, exposed; 0 -> none
     uint32_t seed;        // the same seed gives the same bytes on any number of threads
+    bool keep_aovs;       // ag_reference_aov will be asked
     ag_estimator estimator;
 } ag_reference_options;
 

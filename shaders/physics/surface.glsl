@@ -338,21 +338,34 @@ static inline real surface_dv(surface s, vec3 n, vec3 wo, vec3 wi, vec3 h, real 
     return d * v;
 }
 
-// BRDF times the cosine of wi, 1/sr: times the irradiance that a light without extent
-// gives to a surface facing it, this is the radiance towards wo.
-static inline vec3 surface_direct(surface s, vec3 n, vec3 wo, vec3 wi)
+// BRDF times the cosine of wi, 1/sr, taken apart.
+STRUCT(surface_parts) {
+    vec3 base;
+    vec3 lobe;
+};
+
+static inline surface_parts surface_direct_parts(surface s, vec3 n, vec3 wo, vec3 wi)
 {
+    surface_parts f;
     real NoV = surface_cosine(n, wo);
     real NoL = clamp(dot(n, wi), 0.0f, 1.0f);
     vec3 h = wo + wi;
     // wo.h = |wo + wi| / 2 for unit wo and wi.
     real VoH = min(0.5f * sqrt(dot(h, h)), 1.0f);
-    vec3 base = surface_base(s, NoV, NoL, dot(wo, wi), VoH);
+    f.base = NoL * surface_base(s, NoV, NoL, dot(wo, wi), VoH);
     if ((s.model & SURFACE_DISTRIBUTION) == SURFACE_BLINN)
-        return NoL * base +
-               s.f0 * microfacet_blinn(0.5f * dot(n, h) / max(VoH, 1e-6f), s.shininess);
-    real dv = surface_dv(s, n, wo, wi, h, NoV, NoL);
-    return NoL * (base + dv * surface_fresnel(s, VoH));
+        f.lobe = s.f0 * microfacet_blinn(0.5f * dot(n, h) / max(VoH, 1e-6f), s.shininess);
+    else
+        f.lobe = NoL * surface_dv(s, n, wo, wi, h, NoV, NoL) * surface_fresnel(s, VoH);
+    return f;
+}
+
+// Times the irradiance that a light without extent gives to a surface facing it, this is the
+// radiance towards wo.
+static inline vec3 surface_direct(surface s, vec3 n, vec3 wo, vec3 wi)
+{
+    surface_parts f = surface_direct_parts(s, n, wo, wi);
+    return f.base + f.lobe;
 }
 
 // What it reflects of diffuse light from everywhere.

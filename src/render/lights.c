@@ -2,7 +2,6 @@
 #include "render/lights.h"
 
 #include "base/log.h"
-#include "physics/ambient.glsl"
 #include "physics/light_punctual.glsl"
 
 #include <string.h>
@@ -49,41 +48,19 @@ static float3 scaled(const float v[3], float s)
     return (float3) { bounded(v[0] * s), bounded(v[1] * s), bounded(v[2] * s) };
 }
 
-// m^2, what the body's radiance is the intensity over; 0 without a body.
-static float spread_of(const ag_light_desc *d)
-{
-    float sine;
-    switch (d->kind) {
-    case AG_LIGHT_SPHERE: return PI * d->radius_m * d->radius_m;
-    case AG_LIGHT_SUN: sine = sinf(d->angular_radius_rad); return PI * sine * sine;
-    case AG_LIGHT_DISK:
-    case AG_LIGHT_RECT:
-    case AG_LIGHT_TUBE: return 1;
-    default: return 0;
-    }
-}
-
-// The half axes of what has two; x cross y is the way the light travels.
+// What of two half axes the device takes.
 static void set_axes(const ag_light_desc *d, gpu_light *light)
 {
-    const float *to = d->direction, *up = d->up;
-    const float right[3] = { up[1] * to[2] - up[2] * to[1], up[2] * to[0] - up[0] * to[2],
-                             up[0] * to[1] - up[1] * to[0] };
-    float half_x = d->radius_m, half_y = d->radius_m;
-    if (d->kind == AG_LIGHT_RECT) {
-        half_x = 0.5f * d->width_m;
-        half_y = 0.5f * d->height_m;
-    }
-    light->x = scaled(right, half_x);
-    light->y = scaled(up, half_y);
-    if (d->kind == AG_LIGHT_TUBE)
-        light->x = scaled(to, 0.5f * d->length_m);
+    float x[3], y[3];
+    light_axes(d, x, y);
+    light->x = scaled(x, 1);
+    light->y = scaled(y, 1);
 }
 
 static gpu_light pack(const ag_light_desc *d)
 {
     const float *p = d->position, *to = d->direction;
-    float spread = spread_of(d);
+    float spread = light_spread(d);
     gpu_light light = {
         .position = { p[0], p[1], p[2] },
         .inverse_range2 = d->range_m > 0 ? bounded(1 / (d->range_m * d->range_m)) : 0,
@@ -141,32 +118,6 @@ static void bound_range(gpu_light *light, size_t count, float exposure)
             bounded(darkest / (float)count / fmaxf(candela(light) * exposure / PI, 1e-30f));
 }
 
-static void add_ambient(const ag_light_desc *d, lights *l)
-{
-    const float one[3] = { 1, 1, 1 };
-    float terms[9][3] = { { 1, 1, 1 } };
-    if (d->kind == AG_LIGHT_HARMONICS)
-        memcpy(terms, d->harmonics, sizeof terms);
-    const float *color = d->color;
-    if (d->kind == AG_LIGHT_HEMISPHERIC) {
-        const float *u = d->color, *g = d->ground_color, *axis = d->direction;
-        ambient_light a = ambient_from_hemispheric(vec3(u[0], u[1], u[2]), vec3(g[0], g[1], g[2]),
-                                                   vec3(axis[0], axis[1], axis[2]));
-        for (int c = 0; c < 3; c++) {
-            terms[0][c] = a.c0[c];
-            terms[1][c] = a.cx[c];
-            terms[2][c] = a.cy[c];
-            terms[3][c] = a.cz[c];
-        }
-        color = one;
-    }
-    for (int i = 0; i < 9; i++) {
-        l->ambient[i].x += bounded(terms[i][0] * color[0] * d->intensity);
-        l->ambient[i].y += bounded(terms[i][1] * color[1] * d->intensity);
-        l->ambient[i].z += bounded(terms[i][2] * color[2] * d->intensity);
-    }
-}
-
 static size_t count_placed(const ag_scene *scene)
 {
     size_t count = 0;
@@ -209,15 +160,11 @@ static void place(const ag_scene *scene, size_t count, const ag_render_options *
 
 static void sum_ambient(const ag_scene *scene, const ag_render_options *o, lights *l)
 {
-    l->ambient_present = false;
-    memset(l->ambient, 0, sizeof l->ambient);
-    for (size_t i = 0; i < scene->lights_count; i++) {
-        if (!light_is_ambient(scene->lights[i].kind))
-            continue;
-        l->ambient_present = true; // also where it is dark: variants are dear
-        if (is_part(o, i))
-            add_ambient(&scene->lights[i], l);
-    }
+    float sum[9][3];
+    l->ambient_present = scene_ambient(scene, o->light, sum);
+    float share = o->parts & AG_PART_LIGHTS ? 1 : 0; // dark, not left out: variants are dear
+    for (int i = 0; i < 9; i++)
+        l->ambient[i] = scaled(sum[i], share);
 }
 
 ag_status lights_write(gpu_device *device, const ag_scene *scene, const ag_render_options *o,

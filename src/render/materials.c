@@ -44,34 +44,6 @@ static uint32_t alpha_mode(ag_alpha_mode mode)
     return GPU_ALPHA_OPAQUE;
 }
 
-static uint32_t fresnel_of(const ag_material_desc *d)
-{
-    if (d->metallic == 0)
-        return SURFACE_SCHLICK;
-    if (d->fresnel == AG_FRESNEL_CONDUCTOR)
-        return SURFACE_CONDUCTOR;
-    bool untinted = d->f82_tint[0] == 1 && d->f82_tint[1] == 1 && d->f82_tint[2] == 1;
-    return d->fresnel == AG_FRESNEL_F82 && !untinted ? SURFACE_F82 : SURFACE_SCHLICK;
-}
-
-// Choices that change nothing are not made: variants are dear.
-static uint32_t model_of(const ag_material_desc *d)
-{
-    static const uint32_t diffuse[] = { SURFACE_LAMBERT, SURFACE_OREN_NAYAR, SURFACE_EON };
-    static const uint32_t layering[] = { SURFACE_LAYERED_BY_ALBEDO, SURFACE_LAYERED_BY_F,
-                                         SURFACE_LAYERED_AS_GLTF, SURFACE_BLENDED };
-    uint32_t model = layering[d->layering];
-    if (d->diffuse_roughness > 0)
-        model |= diffuse[d->diffuse];
-    if (d->distribution == AG_DISTRIBUTION_BLINN)
-        return (model & ~SURFACE_LAYERING) | SURFACE_BLINN |
-               (d->layering == AG_LAYERING_BLEND ? SURFACE_BLENDED : SURFACE_LAYERED_BY_ALBEDO);
-    model |= d->anisotropy > 0 ? SURFACE_ANISOTROPIC : SURFACE_GGX;
-    model |= d->shadowing == AG_SHADOWING_SCHLICK ? SURFACE_SCHLICK_GGX : SURFACE_SMITH;
-    model |= d->single_bounce ? SURFACE_SINGLE_BOUNCE : 0;
-    return model | fresnel_of(d);
-}
-
 void materials_classify(const ag_scene *scene, gpu_surface_constants *constants)
 {
     uint32_t first[3][2][2][SURFACE_MODELS] = { 0 }; // of its class, from 1; [alpha mode][unlit]
@@ -82,7 +54,7 @@ void materials_classify(const ag_scene *scene, gpu_surface_constants *constants)
             uint32_t bits = textures_of(material), mode = alpha_mode(material->alpha_mode);
             if (material->unlit)
                 bits &= 1u << GPU_TEXTURE_BASE_COLOR;
-            uint32_t model = material->unlit ? 0 : model_of(material);
+            uint32_t model = material->unlit ? 0 : material_model(material);
             uint32_t *head = &first[mode][material->unlit][bits != 0][model];
             if (!*head) {
                 *head = (uint32_t)i + 1;

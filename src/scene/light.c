@@ -155,6 +155,34 @@ float light_reach(const ag_light_desc *d)
     }
 }
 
+float light_spread(const ag_light_desc *d)
+{
+    const float pi = 3.14159265f;
+    float sine;
+    switch (d->kind) {
+    case AG_LIGHT_SPHERE: return pi * d->radius_m * d->radius_m;
+    case AG_LIGHT_SUN: sine = sinf(d->angular_radius_rad); return pi * sine * sine;
+    case AG_LIGHT_DISK:
+    case AG_LIGHT_RECT:
+    case AG_LIGHT_TUBE: return 1.0f;
+    default: return 0.0f;
+    }
+}
+
+void light_axes(const ag_light_desc *d, float x[3], float y[3])
+{
+    vec3 to = vec3_from(d->direction), up = vec3_from(d->up);
+    float half_x = d->radius_m, half_y = d->radius_m;
+    if (d->kind == AG_LIGHT_RECT) {
+        half_x = 0.5f * d->width_m;
+        half_y = 0.5f * d->height_m;
+    }
+    vec3_store(vec3_scale(vec3_cross(up, to), half_x), x);
+    vec3_store(vec3_scale(up, half_y), y);
+    if (d->kind == AG_LIGHT_TUBE)
+        vec3_store(vec3_scale(to, 0.5f * d->length_m), x);
+}
+
 bool light_is_seen(const ag_light_desc *d)
 {
     return light_reach(d) > 0.0f && !d->hidden;

@@ -80,12 +80,26 @@ bool scene_camera_is_sound(const ag_camera_desc *desc);
 // World-space bounds of everything visible; false when there is nothing.
 bool scene_bounds(const ag_scene *scene, float min[3], float max[3]);
 
+// A material's choices as the `model` of physics/surface.glsl.
+uint32_t material_model(const ag_material_desc *desc);
+
 // Whether lights of a kind stand somewhere; whether they are diffuse light from all sides.
 bool light_has_position(ag_light_kind kind);
 bool light_is_ambient(ag_light_kind kind);
 
 // m, from a light's position to the farthest point of its body; 0 for lights without one.
 float light_reach(const ag_light_desc *desc);
+
+// What a body's radiance is the intensity over, m^2 or 1; 0 for lights without one.
+float light_spread(const ag_light_desc *desc);
+
+// Half axes, m: of a rectangle or disk, x cross y along the way the light travels; a tube's axis
+// is x.
+void light_axes(const ag_light_desc *desc, float x[3], float y[3]);
+
+// The ambient lights together: irradiance over pi as the coefficients of ambient_light
+// (physics/ambient.glsl); false where there are none.  `only`: that light alone, unless 0.
+bool scene_ambient(const ag_scene *scene, ag_light only, float sum[9][3]);
 
 // Whether it has a body that is seen at a place.
 bool light_is_seen(const ag_light_desc *desc);

@@ -1,0 +1,32 @@
+// Triangles that shine, as directions are drawn to them.
+#ifndef AG_TRACE_EMITTERS_H
+#define AG_TRACE_EMITTERS_H
+
+#include "trace/world.h"
+
+// Where the triangles of an instance stand in the list.
+typedef struct emitters {
+    const world *world;
+    size_t count;
+    uint32_t *instance, *triangle; // [count]
+    float *sums;                   // [count + 1], running, of power
+    uint32_t *first;               // [instances]: of its triangles; UINT32_MAX: it does not shine
+} emitters;
+
+AG_CHECK ag_status emitters_init(const world *w, emitters *e);
+void emitters_finish(emitters *e); // zero is allowed
+
+// A place on one, seen from `from`.
+typedef struct emitter_found {
+    vec3 direction; // unit
+    float distance;
+    float density; // of the direction, 1/sr
+    hit at;        // the place
+} emitter_found;
+
+bool emitters_sample(const emitters *e, vec3 from, float pick, vec2 u, emitter_found *found);
+
+// The density with which emitters_sample() finds the direction of a hit from where the ray began.
+float emitters_density(const emitters *e, const hit *h, vec3 direction);
+
+#endif

@@ -1,0 +1,37 @@
+// One path of light, followed from the eye.
+#ifndef AG_TRACE_PATH_H
+#define AG_TRACE_PATH_H
+
+#include <argand/reference.h>
+
+#include "scene/view.h"
+#include "trace/albedo.h"
+#include "trace/emitters.h"
+#include "trace/lights.h"
+#include "trace/sky.h"
+#include "trace/world.h"
+
+// What paths meet, and how they are to be followed.
+typedef struct path_scene {
+    world world;
+    trace_sky sky;
+    trace_lights lights;
+    emitters emitters;
+    albedo_table albedo;
+    view view;
+    ag_render_options picture;
+    ag_reference_options options;
+} path_scene;
+
+typedef struct path_result {
+    vec3 direct, indirect; // exposed radiance
+    float alpha;
+    vec3 albedo, normal; // of the first surface
+    float depth;
+    uint32_t rays;
+} path_result;
+
+// Sample `index` of a pixel.
+path_result path_follow(const path_scene *s, uint32_t x, uint32_t y, uint32_t index);
+
+#endif

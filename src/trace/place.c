@@ -1,0 +1,205 @@
+// A place on a surface that a ray has found.
+#include "trace/place.h"
+
+#include "physics/fresnel.glsl"
+
+// The corners of a hit's triangle and their weights.
+typedef struct corners {
+    const scene_vertex *at[3];
+    float weight[3];
+    vec3 position[3], normal[3]; // world space
+} corners;
+
+static corners corners_of(const hit *h)
+{
+    corners c = { .weight = { 1 - h->u - h->v, h->u, h->v } };
+    const uint32_t *index = h->instance->mesh->indices + 3 * (size_t)h->triangle;
+    for (int i = 0; i < 3; i++) {
+        c.at[i] = &h->instance->mesh->vertices[index[i]];
+        c.position[i] = world_point(h->instance, c.at[i]->position);
+        c.normal[i] = world_normal(h->instance, c.at[i]->normal);
+    }
+    return c;
+}
+
+static vec3 weighted(const corners *c, const vec3 value[3])
+{
+    return c->weight[0] * value[0] + c->weight[1] * value[1] + c->weight[2] * value[2];
+}
+
+static vec4 color_of(const corners *c)
+{
+    vec4 sum = { 0, 0, 0, 0 };
+    for (int i = 0; i < 3; i++) {
+        const uint16_t *v = c->at[i]->color;
+        sum += (c->weight[i] / 65535) * vec4((float)v[0], (float)v[1], (float)v[2], (float)v[3]);
+    }
+    return sum;
+}
+
+static vec2 uv_of(const corners *c, int set)
+{
+    vec2 sum = { 0, 0 };
+    for (int i = 0; i < 3; i++)
+        sum += c->weight[i] * vec2(c->at[i]->uv[set][0], c->at[i]->uv[set][1]);
+    return sum;
+}
+
+static vec4 tangent_of(const world_instance *instance, const corners *c)
+{
+    vec3 sum = { 0, 0, 0, 0 };
+    for (int i = 0; i < 3; i++)
+        sum += c->weight[i] * world_direction(instance, c->at[i]->tangent);
+    return vec4(sum[0], sum[1], sum[2], instance->flip * c->at[0]->tangent[3]);
+}
+
+// Where the smooth surface is that the normals tell of, so that its shadows are not those of its
+// facets: Hanika 2021, "Hacking the Shadow Terminator", listing 4.1.
+static vec3 bulged(const corners *c, vec3 position, float side)
+{
+    vec3 moved = { 0, 0, 0, 0 };
+    for (int i = 0; i < 3; i++) {
+        vec3 n = side * c->normal[i];
+        float below = fminf(dot(position - c->position[i], n), 0);
+        moved = moved - (c->weight[i] * below) * n;
+    }
+    return position + moved;
+}
+
+// A normal map's x and y, from the directions of its own uv to those of the tangents: as in
+// shaders/passes/surface.glsl.
+static vec2 turned(const texture_use *use, vec2 m)
+{
+    vec2 u = { use->u[0], use->u[1] }, v = { use->v[0], use->v[1] };
+    float uu = u[0] * u[0] + u[1] * u[1], vv = v[0] * v[0] + v[1] * v[1];
+    if (!(fminf(uu, vv) > 0))
+        return m;
+    u = u / sqrtf(uu);
+    v = v / sqrtf(vv);
+    return vec2(m[0] * u[0] - m[1] * v[0], m[1] * v[1] - m[0] * u[1]);
+}
+
+static vec3 mapped(const hit *h, const vec2 uv[2], vec4 tangent, vec3 n)
+{
+    const texture_use *map = &h->instance->textures->normal;
+    vec4 texel = texture_read(map, uv);
+    vec2 xy = vec2(2 * texel[0] - 1, 2 * texel[1] - 1);
+    float z = sqrtf(fmaxf(1 - xy[0] * xy[0] - xy[1] * xy[1], 0));
+    vec2 m = turned(map, xy) * h->instance->material->normal_scale;
+    vec3 t = vec3(tangent[0], tangent[1], tangent[2]);
+    vec3 made = m[0] * t + m[1] * (tangent[3] * cross(n, t)) + z * n;
+    float length2 = dot(made, made);
+    return length2 > 1e-12f ? made / sqrtf(length2) : n;
+}
+
+// A normal turned towards the face until the mirror direction of wo is above it: without this
+// bumps seen from aslant are black.  The least turn in the plane of the two, by bisection.
+static vec3 lifted(vec3 n, vec3 face, vec3 wo)
+{
+    float up = dot(wo, face), least = fminf(0.9f * up, 0.01f);
+    float low = 0, high = 1;
+    if (dot(wo, n) > 1e-4f && 2 * dot(wo, n) * dot(n, face) - up >= least)
+        return n;
+    for (int i = 0; i < 12; i++) {
+        float middle = 0.5f * (low + high);
+        vec3 m = normalize(mix(n, face, middle));
+        if (dot(wo, m) > 1e-4f && 2 * dot(wo, m) * dot(m, face) - up >= least)
+            high = middle;
+        else
+            low = middle;
+    }
+    return normalize(mix(n, face, high));
+}
+
+// The rougher direction of an anisotropic surface, across n.
+static vec3 brushed(const ag_material_desc *m, vec4 tangent, vec3 interpolated, vec3 n)
+{
+    vec3 t = vec3(tangent[0], tangent[1], tangent[2]);
+    vec3 b = tangent[3] * cross(interpolated, t);
+    t = cosf(m->anisotropy_rotation_rad) * t + sinf(m->anisotropy_rotation_rad) * b;
+    t = t - dot(t, n) * n;
+    if (dot(t, t) < 1e-12f)
+        t = cross(n, fabsf(n[0]) < 0.7f ? vec3(1, 0, 0) : vec3(0, 1, 0));
+    return normalize(t);
+}
+
+static surface_material material_of(const world *w, const hit *h, const vec2 uv[2])
+{
+    const ag_material_desc *d = h->instance->material;
+    const texture_set *t = h->instance->textures;
+    vec4 metallic_roughness = texture_read(&t->metallic_roughness, uv);
+    vec4 tint = texture_read_color(&t->specular_color, uv, w->decode);
+    vec3 rgb = vec3(tint[0], tint[1], tint[2]);
+    return (surface_material) {
+        .metallic = d->metallic * metallic_roughness[2],
+        .roughness = d->roughness * metallic_roughness[1],
+        .dielectric_f0 = fresnel_f0_dielectric(d->ior),
+        .specular_color =
+            vec3(d->specular_color[0], d->specular_color[1], d->specular_color[2]) * rgb,
+        .specular = d->specular * texture_read(&t->specular, uv)[3],
+        .model = h->instance->model,
+        .diffuse_roughness = d->diffuse_roughness,
+        .shininess = d->shininess,
+        .anisotropy = d->anisotropy,
+        .conductor_n = vec3(d->conductor_n[0], d->conductor_n[1], d->conductor_n[2]),
+        .conductor_k = vec3(d->conductor_k[0], d->conductor_k[1], d->conductor_k[2]),
+        .f82_tint = vec3(d->f82_tint[0], d->f82_tint[1], d->f82_tint[2]),
+        .reflectiveness = d->reflectiveness,
+    };
+}
+
+static float reach(vec3 p)
+{
+    return fmaxf(fabsf(p[0]), fmaxf(fabsf(p[1]), fabsf(p[2])));
+}
+
+place place_at(const world *w, const hit *h, vec3 wo)
+{
+    const ag_material_desc *d = h->instance->material;
+    corners c = corners_of(h);
+    place p = { .position = weighted(&c, c.position), .unlit = d->unlit };
+    bool front = dot(h->normal, wo) > 0;
+    float side = front ? 1 : -1;
+    p.face = normalize(h->normal / fmaxf(reach(h->normal), 1e-37f)) * side;
+    const vec2 uv[2] = { uv_of(&c, 0), uv_of(&c, 1) };
+    vec4 base = vec4(d->base_color[0], d->base_color[1], d->base_color[2], 1) *
+                texture_read_color(&h->instance->textures->base_color, uv, w->decode);
+    if (h->instance->mesh->has_colors)
+        base *= color_of(&c);
+    p.base_color = vec3(base[0], base[1], base[2]);
+    if (d->unlit)
+        return p;
+    vec3 smooth = weighted(&c, c.normal);
+    // Just so far that the triangle itself is not met again.
+    float nudge = 1e-6f * (reach(p.position) + reach(h->instance->at) + h->distance);
+    p.origin = bulged(&c, p.position, side) + nudge * p.face;
+    p.material = material_of(w, h, uv);
+    p.material.base_color = p.base_color;
+    vec4 tangent = { 0, 0, 0, 0 };
+    bool maps = h->instance->textures->normal.pixels != NULL;
+    bool anisotropic = (p.material.model & SURFACE_DISTRIBUTION) == SURFACE_ANISOTROPIC;
+    if (maps || anisotropic)
+        tangent = tangent_of(h->instance, &c);
+    vec3 n = maps ? mapped(h, uv, tangent, smooth) : smooth;
+    float length2 = dot(n, n);
+    n = length2 > 1e-12f ? n * (side / sqrtf(length2)) : p.face;
+    p.normal = lifted(n, p.face, wo);
+    if (anisotropic)
+        p.material.tangent = brushed(d, tangent, smooth, p.normal);
+    return p;
+}
+
+vec3 place_emission(const world *w, const hit *h, vec3 wo)
+{
+    const ag_material_desc *d = h->instance->material;
+    vec3 factor = vec3(d->emissive[0], d->emissive[1], d->emissive[2]);
+    bool shines = factor[0] > 0 || factor[1] > 0 || factor[2] > 0;
+    if (d->unlit || !shines || (!d->double_sided && dot(h->normal, wo) <= 0))
+        return vec3(0, 0, 0);
+    if (!h->instance->textures->emissive.pixels)
+        return factor;
+    corners c = corners_of(h);
+    const vec2 uv[2] = { uv_of(&c, 0), uv_of(&c, 1) };
+    vec4 texel = texture_read_color(&h->instance->textures->emissive, uv, w->decode);
+    return factor * vec3(texel[0], texel[1], texel[2]);
+}

@@ -1,0 +1,32 @@
+// A material's textures as a ray reads them: at full resolution, bilinear between texels.
+#ifndef AG_TRACE_TEXTURE_H
+#define AG_TRACE_TEXTURE_H
+
+#include "physics/lang.glsl"
+#include "scene/scene.h"
+
+typedef struct texture_use {
+    const uint8_t *pixels; // RGBA; NULL -> none
+    int width, height;
+    uint8_t wrap_u, wrap_v; // ag_wrap
+    bool nearest;
+    uint8_t uv_set;
+    float u[3], v[3]; // rows of the transform
+} texture_use;
+
+typedef struct texture_set {
+    texture_use base_color, metallic_roughness, normal, emissive, specular, specular_color;
+} texture_set;
+
+// AG_ERROR_ARGUMENT where the scene's images were given to a renderer.
+AG_CHECK ag_status texture_set_init(const ag_scene *scene, const ag_material_desc *material,
+                                    texture_set *set);
+
+// At the mesh's coordinates `uv` (both sets), each channel in [0, 1] as it is coded; white where
+// there is none.
+vec4 texture_read(const texture_use *use, const vec2 uv[2]);
+
+// The same with R, G, B decoded by a table of sRGB.
+vec4 texture_read_color(const texture_use *use, const vec2 uv[2], const float decode[256]);
+
+#endif

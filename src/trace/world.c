@@ -1,0 +1,351 @@
+// What rays meet: the triangles of a scene, in Embree.
+//
+// A mesh that is shown once has its triangles in world space; others are instanced.
+#include "trace/world.h"
+
+#include "base/log.h"
+#include "image/srgb.h"
+#include "trace/sampler.h"
+
+#include <stdlib.h>
+
+// ---- Instances -----------------------------------------------------------------
+
+// Cofactors of a matrix made of size 1, lest they overflow.
+static void set_frame(const float w[16], world_instance *i)
+{
+    i->x = vec3(w[0], w[1], w[2]);
+    i->y = vec3(w[4], w[5], w[6]);
+    i->z = vec3(w[8], w[9], w[10]);
+    i->at = vec3(w[12], w[13], w[14]);
+    float size2 = dot(i->x, i->x) + dot(i->y, i->y) + dot(i->z, i->z);
+    float scale = size2 > 0 && isfinite(size2) ? 1 / sqrtf(size2) : 1;
+    vec3 x = i->x * scale, y = i->y * scale, z = i->z * scale;
+    i->nx = cross(y, z);
+    i->ny = cross(z, x);
+    i->nz = cross(x, y);
+    i->flip = dot(x, i->nx) < 0 ? -1 : 1;
+}
+
+static ag_status make_instances(const ag_scene *scene, world *w)
+{
+    uint32_t *shown = calloc(scene->meshes_count + 1, sizeof *shown);
+    w->instances = aligned_alloc(_Alignof(world_instance),
+                                 (scene->instances_count + 1) * sizeof *w->instances);
+    w->textures = calloc(scene->materials_count + 1, sizeof *w->textures);
+    if (!shown || !w->instances || !w->textures) {
+        free(shown);
+        return log_fail(&w->log, AG_ERROR_MEMORY, "no memory for %zu instances",
+                        scene->instances_count);
+    }
+    for (size_t i = 0; i < scene->instances_count; i++)
+        shown[scene->instances[i].mesh]++;
+    for (size_t i = 0; i < scene->instances_count; i++) {
+        const scene_instance *from = &scene->instances[i];
+        world_instance *to = &w->instances[i];
+        *to = (world_instance) {
+            .mesh = &scene->meshes[from->mesh],
+            .material = &scene->materials[from->material],
+            .textures = &w->textures[from->material],
+            .model = material_model(&scene->materials[from->material]),
+            .moved = shown[from->mesh] > 1,
+        };
+        set_frame(from->world, to);
+    }
+    w->instance_count = scene->instances_count;
+    free(shown);
+    ag_status status = AG_OK;
+    for (size_t i = 0; i < scene->materials_count && !status; i++)
+        status = texture_set_init(scene, &scene->materials[i], &w->textures[i]);
+    return status;
+}
+
+// ---- What is not wholly there ----------------------------------------------------
+
+typedef struct query {
+    RTCIntersectContext context; // first: the filters are handed this
+    const ray *ray;
+    const world *world;
+} query;
+
+static vec2 mixed(const float a[2], const float b[2], const float c[2], float u, float v)
+{
+    float t = 1 - u - v;
+    return vec2(t * a[0] + u * b[0] + v * c[0], t * a[1] + u * b[1] + v * c[1]);
+}
+
+float world_opacity(const world *w, const world_instance *i, uint32_t triangle, float u, float v)
+{
+    const ag_material_desc *m = i->material;
+    if (m->alpha_mode == AG_ALPHA_OPAQUE)
+        return 1;
+    const uint32_t *at = i->mesh->indices + 3 * (size_t)triangle;
+    const scene_vertex *a = &i->mesh->vertices[at[0]], *b = &i->mesh->vertices[at[1]],
+                       *c = &i->mesh->vertices[at[2]];
+    const vec2 uv[2] = { mixed(a->uv[0], b->uv[0], c->uv[0], u, v),
+                         mixed(a->uv[1], b->uv[1], c->uv[1], u, v) };
+    float color =
+        ((1 - u - v) * (float)a->color[3] + u * (float)b->color[3] + v * (float)c->color[3]) /
+        65535;
+    float alpha =
+        m->base_color[3] * color * texture_read_color(&i->textures->base_color, uv, w->decode)[3];
+    if (m->alpha_mode == AG_ALPHA_MASK)
+        return alpha >= m->alpha_cutoff ? 1 : 0;
+    return alpha;
+}
+
+// Which instance a hit belongs to.
+static uint32_t instance_of(const struct RTCHit *h)
+{
+    return h->instID[0] != RTC_INVALID_GEOMETRY_ID ? h->instID[0] : h->geomID;
+}
+
+// Decided by dice that are the same whenever the same ray meets the same triangle.
+static bool is_there(const query *q, const world_instance *i, uint32_t instance,
+                     const struct RTCHit *h)
+{
+    float opacity = world_opacity(q->world, i, h->primID, h->u, h->v);
+    if (opacity <= 0 || opacity >= 1)
+        return opacity >= 1;
+    uint32_t roll = sampler_mix(sampler_mix(q->ray->dice, instance), h->primID);
+    return (float)(roll >> 8) * 0x1p-24f < opacity;
+}
+
+static void filter(const struct RTCFilterFunctionNArguments *args)
+{
+    const query *q = (const query *)(const void *)args->context;
+    const struct RTCHit h = rtcGetHitFromHitN(args->hit, 1, 0);
+    uint32_t index = instance_of(&h);
+    const world_instance *i = &q->world->instances[index];
+    if (q->ray->from_eye && !i->material->double_sided) {
+        vec3 normal = vec3(h.Ng_x, h.Ng_y, h.Ng_z);
+        const float along[3] = { normal[0], normal[1], normal[2] };
+        if (i->moved)
+            normal = world_normal(i, along);
+        else
+            normal = normal * i->flip;
+        if (dot(normal, q->ray->direction) > 0) {
+            args->valid[0] = 0;
+            return;
+        }
+    }
+    if (!is_there(q, i, index, &h))
+        args->valid[0] = 0;
+}
+
+// ---- Triangles -------------------------------------------------------------------
+
+static ag_status no_memory(const world *w)
+{
+    return log_fail(&w->log, AG_ERROR_MEMORY, "no memory for the tree of triangles");
+}
+
+// The corners of a mesh, in world space where `i` is not NULL.
+static bool set_vertices(RTCGeometry g, const scene_mesh *mesh, const world_instance *i)
+{
+    if (!i) {
+        rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh->vertices,
+                                   offsetof(scene_vertex, position), sizeof(scene_vertex),
+                                   mesh->vertex_count);
+        return true;
+    }
+    float *to = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                        3 * sizeof(float), mesh->vertex_count);
+    for (uint32_t k = 0; to && k < mesh->vertex_count; k++, to += 3) {
+        vec3 p = world_point(i, mesh->vertices[k].position);
+        to[0] = p[0];
+        to[1] = p[1];
+        to[2] = p[2];
+    }
+    return to != NULL;
+}
+
+static RTCGeometry new_triangles(const world *w, const scene_mesh *mesh, const world_instance *i)
+{
+    RTCGeometry g = rtcNewGeometry(w->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (!g || !set_vertices(g, mesh, i)) {
+        rtcReleaseGeometry(g);
+        return NULL;
+    }
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->indices, 0,
+                               3 * sizeof(uint32_t), mesh->index_count / 3);
+    return g;
+}
+
+// Filters cost a call at every hit: only where a material needs them.
+static void set_filters(RTCGeometry g, bool culled, bool partial)
+{
+    if (culled || partial)
+        rtcSetGeometryIntersectFilterFunction(g, filter);
+    if (partial)
+        rtcSetGeometryOccludedFilterFunction(g, filter);
+}
+
+static RTCScene new_scene(const world *w)
+{
+    RTCScene s = rtcNewScene(w->device);
+    if (s)
+        rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
+    return s;
+}
+
+// The tree of a mesh that is shown more than once; its geometry has the filters of the neediest.
+static ag_status make_mesh(const ag_scene *scene, world *w, size_t mesh, bool culled, bool partial)
+{
+    RTCGeometry g = new_triangles(w, &scene->meshes[mesh], NULL);
+    RTCScene s = g ? new_scene(w) : NULL;
+    if (!s) {
+        if (g)
+            rtcReleaseGeometry(g);
+        return no_memory(w);
+    }
+    set_filters(g, culled, partial);
+    rtcCommitGeometry(g);
+    rtcAttachGeometry(s, g);
+    rtcReleaseGeometry(g);
+    rtcCommitScene(s);
+    w->meshes[mesh] = s;
+    return AG_OK;
+}
+
+static ag_status make_meshes(const ag_scene *scene, world *w)
+{
+    w->mesh_count = scene->meshes_count;
+    w->meshes = calloc(scene->meshes_count + 1, sizeof(RTCScene));
+    uint8_t *needs = calloc(scene->meshes_count + 1, 1); // 1 shown, 2 culled, 4 partial
+    ag_status status = w->meshes && needs ? AG_OK : no_memory(w);
+    for (size_t i = 0; i < w->instance_count && !status; i++) {
+        const world_instance *instance = &w->instances[i];
+        if (instance->moved)
+            needs[scene->instances[i].mesh] |=
+                (uint8_t)(1 | (instance->material->double_sided ? 0 : 2) |
+                          (instance->material->alpha_mode != AG_ALPHA_OPAQUE ? 4 : 0));
+    }
+    for (size_t i = 0; i < scene->meshes_count && !status; i++)
+        if (needs[i])
+            status = make_mesh(scene, w, i, needs[i] & 2, needs[i] & 4);
+    free(needs);
+    return status;
+}
+
+static RTCGeometry new_instance(const world *w, const world_instance *i, RTCScene mesh)
+{
+    RTCGeometry g = rtcNewGeometry(w->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    if (!g)
+        return NULL;
+    const float columns[12] = { i->x[0], i->x[1], i->x[2], i->y[0],  i->y[1],  i->y[2],
+                                i->z[0], i->z[1], i->z[2], i->at[0], i->at[1], i->at[2] };
+    rtcSetGeometryInstancedScene(g, mesh);
+    rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    return g;
+}
+
+static ag_status attach_all(const ag_scene *scene, world *w)
+{
+    w->top = new_scene(w);
+    if (!w->top)
+        return no_memory(w);
+    for (size_t i = 0; i < w->instance_count; i++) {
+        const world_instance *instance = &w->instances[i];
+        RTCGeometry g = instance->moved
+                            ? new_instance(w, instance, w->meshes[scene->instances[i].mesh])
+                            : new_triangles(w, instance->mesh, instance);
+        if (!g)
+            return no_memory(w);
+        if (!instance->moved)
+            set_filters(g, !instance->material->double_sided,
+                        instance->material->alpha_mode != AG_ALPHA_OPAQUE);
+        rtcCommitGeometry(g);
+        rtcAttachGeometryByID(w->top, g, (unsigned)i);
+        rtcReleaseGeometry(g);
+    }
+    rtcCommitScene(w->top);
+    return rtcGetDeviceError(w->device) == RTC_ERROR_NONE ? AG_OK : no_memory(w);
+}
+
+ag_status world_create(const ag_scene *scene, world *w)
+{
+    *w = (world) { .log = scene->log };
+    srgb_decoder_init(w->decode);
+    w->device = rtcNewDevice(NULL);
+    if (!w->device)
+        return log_fail(&w->log, AG_ERROR_UNSUPPORTED,
+                        "Embree does not run on this processor (error %d)",
+                        (int)rtcGetDeviceError(NULL));
+    ag_status status = make_instances(scene, w);
+    if (!status)
+        status = make_meshes(scene, w);
+    if (!status)
+        status = attach_all(scene, w);
+    if (status)
+        world_destroy(w);
+    return status;
+}
+
+void world_destroy(world *w)
+{
+    for (size_t i = 0; i < w->mesh_count && w->meshes; i++)
+        if (w->meshes[i])
+            rtcReleaseScene(w->meshes[i]);
+    if (w->top)
+        rtcReleaseScene(w->top);
+    if (w->device)
+        rtcReleaseDevice(w->device);
+    free(w->meshes);
+    free(w->instances);
+    free(w->textures);
+    *w = (world) { 0 };
+}
+
+// ---- Rays ------------------------------------------------------------------------
+
+static struct RTCRay ray_for(const ray *r)
+{
+    return (struct RTCRay) {
+        .org_x = r->origin[0],
+        .org_y = r->origin[1],
+        .org_z = r->origin[2],
+        .tnear = r->near,
+        .dir_x = r->direction[0],
+        .dir_y = r->direction[1],
+        .dir_z = r->direction[2],
+        .tfar = r->far,
+        .mask = 0xffffffffu,
+    };
+}
+
+static query query_for(const world *w, const ray *r)
+{
+    query q = { .ray = r, .world = w };
+    rtcInitIntersectContext(&q.context);
+    return q;
+}
+
+bool world_closest(const world *w, const ray *r, hit *h)
+{
+    query q = query_for(w, r);
+    struct RTCRayHit rh = { .ray = ray_for(r), .hit.geomID = RTC_INVALID_GEOMETRY_ID };
+    rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(w->top, &q.context, &rh);
+    if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return false;
+    const world_instance *i = &w->instances[instance_of(&rh.hit)];
+    const float along[3] = { rh.hit.Ng_x, rh.hit.Ng_y, rh.hit.Ng_z };
+    *h = (hit) {
+        .instance = i,
+        .triangle = rh.hit.primID,
+        .distance = rh.ray.tfar,
+        .u = rh.hit.u,
+        .v = rh.hit.v,
+        .normal = i->moved ? world_normal(i, along) : i->flip * vec3(along[0], along[1], along[2]),
+    };
+    return true;
+}
+
+bool world_blocked(const world *w, const ray *r)
+{
+    query q = query_for(w, r);
+    struct RTCRay shadow = ray_for(r);
+    rtcOccluded1(w->top, &q.context, &shadow);
+    return shadow.tfar < 0;
+}
