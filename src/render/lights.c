@@ -162,7 +162,7 @@ static void sum_ambient(const ag_scene *scene, const ag_render_options *o, light
 {
     float sum[9][3];
     l->ambient_present = scene_ambient(scene, o->light, sum);
-    float share = o->parts & AG_PART_LIGHTS ? 1 : 0; // dark, not left out: variants are dear
+    float share = o->parts & AG_PART_LIGHTS ? 1.0f : 0.0f; // dark, not left out: variants are dear
     for (int i = 0; i < 9; i++)
         l->ambient[i] = scaled(sum[i], share);
 }

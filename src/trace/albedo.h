@@ -15,8 +15,8 @@ void albedo_init(albedo_table *table);
 static inline vec2 albedo_read(const albedo_table *table, float NoV, float roughness)
 {
     const float last = BAKE_DFG_SIZE - 1;
-    float x = fminf(fmaxf(NoV * BAKE_DFG_SIZE - 0.5f, 0), last);
-    float y = fminf(fmaxf(roughness * BAKE_DFG_SIZE - 0.5f, 0), last);
+    float x = min(max(NoV * BAKE_DFG_SIZE - 0.5f, 0), last);
+    float y = min(max(roughness * BAKE_DFG_SIZE - 0.5f, 0), last);
     int x0 = (int)x, y0 = (int)y;
     int x1 = x0 + (x0 < BAKE_DFG_SIZE - 1), y1 = y0 + (y0 < BAKE_DFG_SIZE - 1);
     float fx = x - (float)x0, fy = y - (float)y0;

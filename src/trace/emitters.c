@@ -39,7 +39,7 @@ static float brightness(const world *w, const world_instance *i, uint32_t index)
                                         { .45f, .45f } };
     const float *e = i->material->emissive;
     const texture_use *map = &i->textures->emissive;
-    float factor = fmaxf(e[0], fmaxf(e[1], e[2])), sum = 0;
+    float factor = max(e[0], max(e[1], e[2])), sum = 0;
     if (!map->pixels)
         return factor;
     const uint32_t *at = i->mesh->indices + 3 * (size_t)index;
@@ -52,7 +52,7 @@ static float brightness(const world *w, const world_instance *i, uint32_t index)
                 uv[set] += weight[c] * vec2(of[0], of[1]);
             }
         vec4 texel = texture_read_color(map, uv, w->decode);
-        sum += fmaxf(texel[0], fmaxf(texel[1], texel[2])) / 7;
+        sum += max(texel[0], max(texel[1], texel[2])) / 7;
     }
     return factor * (sum + 0.01f);
 }

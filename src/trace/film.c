@@ -105,8 +105,8 @@ static void add_error(void *context, size_t y)
         if (n < 2)
             continue;
         float mean = color_luminance(mean_of(p, inverse(n)));
-        float variance = fmaxf(p->square / (float)n - mean * mean, 0) / (float)(n - 1);
-        sum += (double)(sqrtf(variance) / fmaxf(mean, r->floor));
+        float variance = max(p->square / (float)n - mean * mean, 0) / (float)(n - 1);
+        sum += (double)(sqrtf(variance) / max(mean, r->floor));
     }
     r->sums[y] = sum;
 }
@@ -125,7 +125,7 @@ float film_noise(const film *f)
     row_sum r = { .film = f, .sums = calloc(f->height, sizeof(double)) };
     if (!r.sums)
         return INFINITY;
-    r.floor = fmaxf((float)total_of(f, &r, add_luminance) / 20, 1e-20f);
+    r.floor = max((float)total_of(f, &r, add_luminance) / 20, 1e-20f);
     double noise = total_of(f, &r, add_error);
     free(r.sums);
     return (float)noise;
@@ -172,7 +172,7 @@ static void develop_bytes(const developing *d, vec3 mean, float alpha, uint8_t o
     }
     for (int i = 0; i < 3; i++)
         out[i] = alpha > 0 ? srgb_encode(&d->encoder, shown[i]) : 0;
-    out[3] = (uint8_t)(fminf(alpha, 1) * 255 + 0.5f);
+    out[3] = (uint8_t)(min(alpha, 1) * 255 + 0.5f);
 }
 
 static void develop_row(void *context, size_t y)

@@ -15,7 +15,7 @@ static vec3 loaded(const float v[3])
 
 static float greatest(vec3 c)
 {
-    return fmaxf(c[0], fmaxf(c[1], c[2]));
+    return max(c[0], max(c[1], c[2]));
 }
 
 static float length_of(vec3 v)
@@ -119,7 +119,7 @@ static float weight_at(const trace_light *l, const lit_place *p)
     if (dot(to, p->normal) < -reach)
         return 0; // below the horizon
     return l->power * light_window(distance2, l->inverse_range2) /
-           fmaxf(distance2, fmaxf(reach * reach, LIGHT_MIN_DISTANCE2));
+           max(distance2, max(reach * reach, LIGHT_MIN_DISTANCE2));
 }
 
 float lights_weight(const trace_lights *l, const lit_place *p)
@@ -177,7 +177,7 @@ static bool sample_punctual(const trace_light *l, vec3 to, float chance, light_f
     if (l->kind != AG_LIGHT_DIRECTIONAL) {
         float distance2 = dot(to, to);
         found->distance = sqrtf(distance2);
-        found->direction = to / fmaxf(found->distance, 1e-10f);
+        found->direction = to / max(found->distance, 1e-10f);
         falloff = light_point(distance2, l->inverse_range2);
         if (l->kind == AG_LIGHT_SPOT)
             falloff *= light_spot(-dot(l->direction, found->direction), l->cone);

@@ -33,7 +33,7 @@ static bool wants(const path *p, uint32_t parts)
 static void add(path *p, vec3 light)
 {
     light = light * p->scene->picture.exposure;
-    float most = fmaxf(light[0], fmaxf(light[1], light[2])), limit = p->scene->options.clamp;
+    float most = max(light[0], max(light[1], light[2])), limit = p->scene->options.clamp;
     if (!isfinite(most))
         return;
     if (limit > 0 && most > limit)
@@ -126,17 +126,16 @@ static vec3 sky_part(const path *p, const surface_parts *f)
 static void light_by_sky(path *p, const bsdf *b, vec3 from)
 {
     vec2 u = sampler_pair(&p->dice);
-    float density;
     if (p->scene->options.estimator == AG_ESTIMATOR_SURFACE)
         return;
-    vec3 wi = sky_sample(&p->scene->sky, u, &density);
-    if (!(density > 0))
+    sky_look sky = sky_sample(&p->scene->sky, u);
+    if (!(sky.density > 0) || dot(sky.direction, b->frame.n) <= 0)
         return;
-    scattered s = bsdf_evaluate(b, wi);
+    scattered s = bsdf_evaluate(b, sky.direction);
     vec3 f = sky_part(p, &s.f);
-    if (fmaxf(f[0], fmaxf(f[1], f[2])) > 0 && is_open(p, from, wi, INFINITY))
-        add(p, p->throughput * f * sky_radiance(&p->scene->sky, wi) *
-                   (weight_of_light(p, density, s.density) / density));
+    if (max(f[0], max(f[1], f[2])) > 0 && is_open(p, from, sky.direction, INFINITY))
+        add(p, p->throughput * f * sky.radiance *
+                   (weight_of_light(p, sky.density, s.density) / sky.density));
 }
 
 static void light_by_lights(path *p, const bsdf *b, const lit_place *at, float total)
@@ -149,8 +148,7 @@ static void light_by_lights(path *p, const bsdf *b, const lit_place *at, float t
     scattered s = bsdf_evaluate(b, found.direction);
     float weight = found.density > 0 ? weight_of_light(p, found.density, s.density) : 1;
     vec3 f = (s.f.base + s.f.lobe) * weight;
-    if (fmaxf(f[0], fmaxf(f[1], f[2])) > 0 &&
-        is_open(p, at->position, found.direction, found.distance))
+    if (max(f[0], max(f[1], f[2])) > 0 && is_open(p, at->position, found.direction, found.distance))
         add(p, p->throughput * f * found.radiance);
 }
 
@@ -163,11 +161,11 @@ static void light_by_emitters(path *p, const bsdf *b, vec3 from)
         return;
     scattered s = bsdf_evaluate(b, found.direction);
     vec3 f = s.f.base + s.f.lobe;
-    if (!(fmaxf(f[0], fmaxf(f[1], f[2])) > 0))
+    if (!(max(f[0], max(f[1], f[2])) > 0))
         return;
     vec3 light = place_emission(&p->scene->world, &found.at, -found.direction);
     float weight = p->scene->options.unshadowed ? 1 : weight_of_light(p, found.density, s.density);
-    if (fmaxf(light[0], fmaxf(light[1], light[2])) > 0 && weight > 0 &&
+    if (max(light[0], max(light[1], light[2])) > 0 && weight > 0 &&
         is_open(p, from, found.direction, found.distance * 0.9999f))
         add(p, p->throughput * f * light * (weight / found.density));
 }
@@ -199,10 +197,10 @@ static void meet_body(void *context, vec3 radiance, float density)
 
 static void add_sky(path *p, vec3 direction, float density)
 {
-    const trace_sky *s = &p->scene->sky;
-    float weight = weight_of_surface(p, density, sky_density(s, direction));
+    sky_look sky = sky_at(&p->scene->sky, direction);
+    float weight = weight_of_surface(p, density, sky.density);
     if (weight > 0)
-        add(p, p->throughput * p->sky_share * sky_radiance(s, direction) * weight);
+        add(p, p->throughput * p->sky_share * sky.radiance * weight);
 }
 
 static void add_emission(path *p, const hit *h, vec3 direction, float density)
@@ -210,7 +208,7 @@ static void add_emission(path *p, const hit *h, vec3 direction, float density)
     if (p->scene->options.unshadowed)
         return;
     vec3 light = place_emission(&p->scene->world, h, -direction);
-    if (fmaxf(light[0], fmaxf(light[1], light[2])) > 0)
+    if (max(light[0], max(light[1], light[2])) > 0)
         add(p,
             p->throughput * light *
                 weight_of_surface(p, density, emitters_density(&p->scene->emitters, h, direction)));
@@ -251,7 +249,7 @@ static bool scatter(path *p, const bsdf *b, vec3 *direction, float *density)
     }
     p->throughput = p->throughput * f / s.density;
     *density = s.density;
-    return fmaxf(p->throughput[0], fmaxf(p->throughput[1], p->throughput[2])) > 0;
+    return max(p->throughput[0], max(p->throughput[1], p->throughput[2])) > 0;
 }
 
 static bool survives(path *p)
@@ -260,7 +258,7 @@ static bool survives(path *p)
     if (p->scattered < CERTAIN)
         return true;
     vec3 t = p->throughput;
-    float chance = fminf(fmaxf(t[0], fmaxf(t[1], t[2])), 0.95f);
+    float chance = min(max(t[0], max(t[1], t[2])), 0.95f);
     if (dice >= chance)
         return false;
     p->throughput = t / chance;
@@ -343,7 +341,7 @@ static ray eye_ray(path *p, uint32_t x, uint32_t y)
     else
         r.direction = normalize(forward + off);
     float along = dot(r.direction, forward);
-    r.near = fmaxf(v->near_m, 0) / along;
+    r.near = max(v->near_m, 0) / along;
     r.far = v->far_m / along;
     r.dice = sampler_mix(p->dice.seed, sampler_mix(p->dice.index, p->dice.drawn));
     return r;
@@ -352,7 +350,7 @@ static ray eye_ray(path *p, uint32_t x, uint32_t y)
 static void see_background(path *p, vec3 direction)
 {
     if (p->scene->picture.background == AG_BACKGROUND_ENVIRONMENT)
-        add_seen(p, sky_radiance(&p->scene->sky, direction));
+        add_seen(p, sky_at(&p->scene->sky, direction).radiance);
 }
 
 static bool see_body(path *p, const ray *r, float distance)

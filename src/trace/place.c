@@ -60,7 +60,7 @@ static vec3 bulged(const corners *c, vec3 position, float side)
     vec3 moved = { 0, 0, 0, 0 };
     for (int i = 0; i < 3; i++) {
         vec3 n = side * c->normal[i];
-        float below = fminf(dot(position - c->position[i], n), 0);
+        float below = min(dot(position - c->position[i], n), 0);
         moved = moved - (c->weight[i] * below) * n;
     }
     return position + moved;
@@ -72,7 +72,7 @@ static vec2 turned(const texture_use *use, vec2 m)
 {
     vec2 u = { use->u[0], use->u[1] }, v = { use->v[0], use->v[1] };
     float uu = u[0] * u[0] + u[1] * u[1], vv = v[0] * v[0] + v[1] * v[1];
-    if (!(fminf(uu, vv) > 0))
+    if (!(min(uu, vv) > 0))
         return m;
     u = u / sqrtf(uu);
     v = v / sqrtf(vv);
@@ -84,7 +84,7 @@ static vec3 mapped(const hit *h, const vec2 uv[2], vec4 tangent, vec3 n)
     const texture_use *map = &h->instance->textures->normal;
     vec4 texel = texture_read(map, uv);
     vec2 xy = vec2(2 * texel[0] - 1, 2 * texel[1] - 1);
-    float z = sqrtf(fmaxf(1 - xy[0] * xy[0] - xy[1] * xy[1], 0));
+    float z = sqrtf(max(1 - xy[0] * xy[0] - xy[1] * xy[1], 0));
     vec2 m = turned(map, xy) * h->instance->material->normal_scale;
     vec3 t = vec3(tangent[0], tangent[1], tangent[2]);
     vec3 made = m[0] * t + m[1] * (tangent[3] * cross(n, t)) + z * n;
@@ -96,7 +96,7 @@ static vec3 mapped(const hit *h, const vec2 uv[2], vec4 tangent, vec3 n)
 // bumps seen from aslant are black.  The least turn in the plane of the two, by bisection.
 static vec3 lifted(vec3 n, vec3 face, vec3 wo)
 {
-    float up = dot(wo, face), least = fminf(0.9f * up, 0.01f);
+    float up = dot(wo, face), least = min(0.9f * up, 0.01f);
     float low = 0, high = 1;
     if (dot(wo, n) > 1e-4f && 2 * dot(wo, n) * dot(n, face) - up >= least)
         return n;
@@ -150,7 +150,7 @@ static surface_material material_of(const world *w, const hit *h, const vec2 uv[
 
 static float reach(vec3 p)
 {
-    return fmaxf(fabsf(p[0]), fmaxf(fabsf(p[1]), fabsf(p[2])));
+    return max(fabsf(p[0]), max(fabsf(p[1]), fabsf(p[2])));
 }
 
 place place_at(const world *w, const hit *h, vec3 wo)
@@ -160,7 +160,7 @@ place place_at(const world *w, const hit *h, vec3 wo)
     place p = { .position = weighted(&c, c.position), .unlit = d->unlit };
     bool front = dot(h->normal, wo) > 0;
     float side = front ? 1 : -1;
-    p.face = normalize(h->normal / fmaxf(reach(h->normal), 1e-37f)) * side;
+    p.face = normalize(h->normal / max(reach(h->normal), 1e-37f)) * side;
     const vec2 uv[2] = { uv_of(&c, 0), uv_of(&c, 1) };
     vec4 base = vec4(d->base_color[0], d->base_color[1], d->base_color[2], 1) *
                 texture_read_color(&h->instance->textures->base_color, uv, w->decode);

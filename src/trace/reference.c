@@ -198,7 +198,7 @@ static bool run_pass(ag_reference *r, const ag_reference_goal *g, double start)
         .goal = g,
         .from = r->samples,
         .to = pass_end(r, g),
-        .deadline_ms = g->seconds > 0 ? start + g->seconds * 1000 : INFINITY,
+        .deadline_ms = g->seconds > 0 ? start + g->seconds * 1000 : (double)INFINITY,
         .done = done,
         .caller = pthread_self(),
     };

@@ -51,13 +51,6 @@ static vec3 world_from_sky(const trace_sky *s, vec3 d)
     return vec3(s->cosine * d[0] + s->sine * d[2], d[1], s->cosine * d[2] - s->sine * d[0]);
 }
 
-vec3 sky_radiance(const trace_sky *s, vec3 direction)
-{
-    if (!s->image)
-        return vec3(0, 0, 0);
-    return s->intensity * lookup(s->image, environment_uv(sky_from_world(s, direction)));
-}
-
 // ---- Where it is drawn ---------------------------------------------------------------
 
 typedef struct filling {
@@ -67,7 +60,7 @@ typedef struct filling {
 
 static float greatest(vec3 c)
 {
-    return fmaxf(fmaxf(c[0], c[1]), c[2]);
+    return max(max(c[0], c[1]), c[2]);
 }
 
 // The mean of the pixels in [from, to) of one line, one more at either end.
@@ -80,6 +73,18 @@ static float span(const ag_image *image, uint32_t y, int from, int to)
     return sum / (float)(to - from + 2);
 }
 
+// guides[k] = the last cell that begins at or before the share k of the sum.
+static void set_guides(const float *sums, int count, uint16_t *guides)
+{
+    int cell = 0;
+    for (int k = 0; k <= SKY_GUIDES; k++) {
+        float from = sums[count] * (float)k / SKY_GUIDES;
+        while (cell < count - 1 && sums[cell + 1] <= from)
+            cell++;
+        guides[k] = (uint16_t)cell;
+    }
+}
+
 static void fill_row(void *context, size_t index)
 {
     const filling *f = context;
@@ -87,10 +92,9 @@ static void fill_row(void *context, size_t index)
     int width = (int)s->image->width, height = (int)s->image->height, row = (int)index;
     int top = (int)((size_t)row * (size_t)height / (size_t)s->rows) - 1;
     int bottom = (int)(((size_t)row + 1) * (size_t)height / (size_t)s->rows);
-    float *sums = s->cell_sums + index * (size_t)(s->columns + 1);
+    float *sums = s->sums + index * (size_t)(s->columns + 1);
     // The solid angle of a cell, up to a factor that all share.
-    float size =
-        cosf(PI * (float)row / (float)s->rows) - cosf(PI * (float)(row + 1) / (float)s->rows);
+    float size = s->heights[row] - s->heights[row + 1];
     double total = 0;
     sums[0] = 0;
     for (int c = 0; c < s->columns; c++) {
@@ -107,11 +111,47 @@ static void fill_row(void *context, size_t index)
         sums[c + 1] = (float)total;
     }
     f->totals[row] = (float)total;
+    set_guides(sums, s->columns, s->guides + index * (SKY_GUIDES + 1));
 }
 
 static ag_status no_memory(const ag_scene *scene)
 {
     return log_fail(&scene->log, AG_ERROR_MEMORY, "no memory for the environment's distribution");
+}
+
+static sky_line line_of(const trace_sky *s, int row)
+{
+    bool of_rows = row == s->rows;
+    return (sky_line) { of_rows ? s->rows : s->columns,
+                        s->sums + (size_t)row * (size_t)(s->columns + 1),
+                        s->guides + (size_t)row * (SKY_GUIDES + 1) };
+}
+
+static ag_status fill(trace_sky *s)
+{
+    size_t rows = (size_t)s->rows, columns = (size_t)s->columns;
+    s->sums = malloc((rows * (columns + 1) + rows + 1) * sizeof *s->sums);
+    s->guides = malloc((rows + 1) * (SKY_GUIDES + 1) * sizeof *s->guides);
+    s->heights = malloc((rows + 1) * sizeof *s->heights);
+    float *totals = malloc(rows * sizeof *totals);
+    if (!s->sums || !s->guides || !s->heights || !totals) {
+        free(totals);
+        return no_memory(s->scene);
+    }
+    for (size_t i = 0; i <= rows; i++)
+        s->heights[i] = cosf(PI * (float)i / (float)rows);
+    filling f = { s, totals };
+    parallel_for(rows, fill_row, &f);
+    float *sums = s->sums + rows * (columns + 1);
+    double sum = 0;
+    sums[0] = 0;
+    for (size_t i = 0; i < rows; i++) {
+        sum += (double)totals[i];
+        sums[i + 1] = (float)sum;
+    }
+    set_guides(sums, s->rows, s->guides + rows * (SKY_GUIDES + 1));
+    free(totals);
+    return AG_OK;
 }
 
 ag_status sky_init(const ag_scene *scene, trace_sky *s)
@@ -127,83 +167,79 @@ ag_status sky_init(const ag_scene *scene, trace_sky *s)
         return status;
     s->columns = s->image->width < COLUMNS_MAX ? (int)s->image->width : COLUMNS_MAX;
     s->rows = s->image->height < ROWS_MAX ? (int)s->image->height : ROWS_MAX;
-    size_t rows = (size_t)s->rows, columns = (size_t)s->columns;
-    s->row_sums = calloc(rows + 1, sizeof *s->row_sums);
-    s->cell_sums = malloc(rows * (columns + 1) * sizeof *s->cell_sums);
-    float *totals = malloc(rows * sizeof *totals);
-    if (!s->row_sums || !s->cell_sums || !totals) {
-        free(totals);
+    status = fill(s);
+    if (status)
         sky_finish(s);
-        return no_memory(scene);
-    }
-    filling f = { s, totals };
-    parallel_for(rows, fill_row, &f);
-    double sum = 0;
-    for (size_t i = 0; i < rows; i++) {
-        sum += (double)totals[i];
-        s->row_sums[i + 1] = (float)sum;
-    }
-    free(totals);
-    return AG_OK;
+    return status;
 }
 
 void sky_finish(trace_sky *s)
 {
     if (s->scene)
         scene_environment_close(s->scene, s->image);
-    free(s->row_sums);
-    free(s->cell_sums);
+    free(s->sums);
+    free(s->guides);
+    free(s->heights);
     *s = (trace_sky) { 0 };
 }
 
-// The interval of rising sums that holds `x`; `*within` where in it.
-static int find(const float *sums, int count, float x, float *within)
+// The cell at share `u` of a line's sum; `*within` where in it.
+static int find(const sky_line *l, float u, float *within)
 {
-    int low = 0, high = count;
+    float x = u * l->sums[l->count];
+    int guide = (int)(u * SKY_GUIDES), low = l->guides[guide], high = l->guides[guide + 1] + 1;
     while (high - low > 1) {
         int middle = (low + high) / 2;
-        if (sums[middle] <= x)
+        if (l->sums[middle] <= x)
             low = middle;
         else
             high = middle;
     }
-    float width = sums[low + 1] - sums[low];
-    *within = width > 0 ? fminf((x - sums[low]) / width, 0x1.fffffep-1f) : 0.5f;
+    float width = l->sums[low + 1] - l->sums[low];
+    *within = width > 0 ? min(max(x - l->sums[low], 0.0f) / width, 0x1.fffffep-1f) : 0.5f;
     return low;
+}
+
+// Of a cell, 1/sr.
+static float density_of(const trace_sky *s, const sky_line *cells, int row, int column)
+{
+    float total = s->sums[(size_t)s->rows * (size_t)(s->columns + 1) + (size_t)s->rows];
+    float size = (s->heights[row] - s->heights[row + 1]) * (2 * PI) / (float)s->columns;
+    float light = cells->sums[column + 1] - cells->sums[column];
+    return total > 0 ? light / (total * size) : 0;
 }
 
 // Within a row heights are drawn evenly in the cosine, so that density over the sphere is
 // constant in a cell.
-vec3 sky_sample(const trace_sky *s, vec2 u, float *density)
+sky_look sky_sample(const trace_sky *s, vec2 u)
 {
-    float total = s->image ? s->row_sums[s->rows] : 0, across, down;
-    *density = 0;
-    if (!(total > 0))
-        return vec3(0, 1, 0);
-    int row = find(s->row_sums, s->rows, u[1] * total, &down);
-    const float *cells = s->cell_sums + (size_t)row * (size_t)(s->columns + 1);
-    int column = find(cells, s->columns, u[0] * cells[s->columns], &across);
-    float top = cosf(PI * (float)row / (float)s->rows);
-    float bottom = cosf(PI * (float)(row + 1) / (float)s->rows);
-    float y = top + down * (bottom - top), r = sqrtf(fmaxf(1 - y * y, 0));
-    float phi = (((float)column + across) / (float)s->columns - 0.5f) * 2 * PI;
-    float size = (top - bottom) * 2 * PI / (float)s->columns;
-    *density = (cells[column + 1] - cells[column]) / (total * size);
-    return world_from_sky(s, vec3(r * cosf(phi), y, r * sinf(phi)));
+    float across, down;
+    sky_line rows = line_of(s, s->rows);
+    int row = find(&rows, u[1], &down);
+    sky_line cells = line_of(s, row);
+    int column = find(&cells, u[0], &across);
+    float y = mix(s->heights[row], s->heights[row + 1], down);
+    float r = sqrtf(max(1 - y * y, 0.0f)), turn = ((float)column + across) / (float)s->columns;
+    float phi = (turn - 0.5f) * 2 * PI;
+    vec2 uv = vec2(turn, atan2f(r, y) * INV_PI);
+    return (sky_look) {
+        .direction = world_from_sky(s, vec3(r * cosf(phi), y, r * sinf(phi))),
+        .radiance = s->intensity * lookup(s->image, uv),
+        .density = density_of(s, &cells, row, column),
+    };
 }
 
-float sky_density(const trace_sky *s, vec3 direction)
+sky_look sky_at(const trace_sky *s, vec3 direction)
 {
-    float total = s->image ? s->row_sums[s->rows] : 0;
-    if (!(total > 0))
-        return 0;
+    sky_look look = { .direction = direction };
+    if (!s->image)
+        return look;
     vec2 uv = environment_uv(sky_from_world(s, direction));
     int row = (int)(uv[1] * (float)s->rows), column = (int)(uv[0] * (float)s->columns);
     row = row < s->rows ? row : s->rows - 1;
     column = column < 0 ? 0 : column < s->columns ? column : s->columns - 1;
-    const float *cells = s->cell_sums + (size_t)row * (size_t)(s->columns + 1);
-    float top = cosf(PI * (float)row / (float)s->rows);
-    float bottom = cosf(PI * (float)(row + 1) / (float)s->rows);
-    return (cells[column + 1] - cells[column]) /
-           (total * (top - bottom) * 2 * PI / (float)s->columns);
+    sky_line cells = line_of(s, row);
+    look.radiance = s->intensity * lookup(s->image, uv);
+    look.density = density_of(s, &cells, row, column);
+    return look;
 }

@@ -5,24 +5,36 @@
 #include "physics/lang.glsl"
 #include "scene/scene.h"
 
+// Running sums of one line of cells, and where to begin to look in them.
+enum { SKY_GUIDES = 128 };
+typedef struct sky_line {
+    int count;
+    const float *sums;      // [count + 1]
+    const uint16_t *guides; // [SKY_GUIDES + 1]: the cells of even steps through the sum
+} sky_line;
+
 typedef struct trace_sky {
     const ag_scene *scene;
     const ag_image *image;         // NULL -> black everywhere
     float intensity, cosine, sine; // of its rotation
-    // Cells of the distribution: rows from the top, each with its running sums.
-    int columns, rows;
-    float *row_sums;  // [rows + 1]
-    float *cell_sums; // [rows][columns + 1]
+    int columns, rows;             // of the distribution's cells
+    float *sums;                   // [rows][columns + 1], then [rows + 1] of the rows themselves
+    uint16_t *guides;              // [rows + 1][SKY_GUIDES + 1], in the same order
+    float *heights;                // [rows + 1]: cosines from the zenith where rows begin
 } trace_sky;
 
 AG_CHECK ag_status sky_init(const ag_scene *scene, trace_sky *s);
 void sky_finish(trace_sky *s); // zero is allowed
 
-// Radiance, nit, from a unit direction of the world; bilinear between the image's pixels.
-vec3 sky_radiance(const trace_sky *s, vec3 direction);
+// A direction of the sky: its light, nit, bilinear between the image's pixels, and the density
+// with which sky_sample() draws it, 1/sr.
+typedef struct sky_look {
+    vec3 direction; // unit, world space
+    vec3 radiance;
+    float density;
+} sky_look;
 
-// A direction, and its density in 1/sr.
-vec3 sky_sample(const trace_sky *s, vec2 u, float *density);
-float sky_density(const trace_sky *s, vec3 direction);
+sky_look sky_at(const trace_sky *s, vec3 direction);
+sky_look sky_sample(const trace_sky *s, vec2 u);
 
 #endif

@@ -84,8 +84,8 @@ static taps taps_of(const texture_use *use, const vec2 uv[2])
     vec2 at = uv[use->uv_set];
     float x = tamed(use->u[0] * at[0] + use->u[1] * at[1] + use->u[2]) * (float)use->width - 0.5f;
     float y = tamed(use->v[0] * at[0] + use->v[1] * at[1] + use->v[2]) * (float)use->height - 0.5f;
-    x = fminf(fmaxf(x, -1e9f), 1e9f);
-    y = fminf(fmaxf(y, -1e9f), 1e9f);
+    x = min(max(x, -1e9f), 1e9f);
+    y = min(max(y, -1e9f), 1e9f);
     if (use->nearest) {
         x = floorf(x + 0.5f);
         y = floorf(y + 0.5f);

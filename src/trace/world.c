@@ -63,7 +63,7 @@ static ag_status make_instances(const ag_scene *scene, world *w)
 // ---- What is not wholly there ----------------------------------------------------
 
 typedef struct query {
-    RTCIntersectContext context; // first: the filters are handed this
+    struct RTCIntersectContext context; // first: the filters are handed this
     const ray *ray;
     const world *world;
 } query;
@@ -114,7 +114,7 @@ static bool is_there(const query *q, const world_instance *i, uint32_t instance,
 static void filter(const struct RTCFilterFunctionNArguments *args)
 {
     const query *q = (const query *)(const void *)args->context;
-    const struct RTCHit h = rtcGetHitFromHitN(args->hit, 1, 0);
+    const struct RTCHit h = *(const struct RTCHit *)(const void *)args->hit; // of one ray: no array
     uint32_t index = instance_of(&h);
     const world_instance *i = &q->world->instances[index];
     if (q->ray->from_eye && !i->material->double_sided) {

@@ -65,7 +65,7 @@ static inline vec3 world_point(const world_instance *i, const float p[3])
 static inline vec3 world_normal(const world_instance *i, const float n[3])
 {
     vec3 v = n[0] * i->nx + n[1] * i->ny + n[2] * i->nz;
-    return v * (i->flip / sqrtf(fmaxf(dot(v, v), 1e-30f)));
+    return v * (i->flip / sqrtf(max(dot(v, v), 1e-30f)));
 }
 
 static inline vec3 world_direction(const world_instance *i, const float d[3])
