@@ -4,9 +4,7 @@
 #include "base/log.h"
 #include "base/threads.h"
 #include "image/image.h"
-#include "image/srgb.h"
 #include "physics/color.glsl"
-#include "physics/display.glsl"
 
 #include <stdlib.h>
 
@@ -138,41 +136,21 @@ typedef struct developing {
     const ag_render_options *options;
     ag_aov aov;
     ag_image *image;
-    srgb_encoder encoder;
 } developing;
 
-static uint32_t tone_of(const ag_render_options *o)
+// Straight alpha; over the backdrop where floats leave as they are.
+static void develop(const developing *d, vec3 mean, float alpha, float out[4])
 {
-    return (uint32_t)o->tonemap | // the numbers are the same
-           (o->transfer == AG_TRANSFER_GAMMA_22 ? DISPLAY_GAMMA_22 : 0);
-}
-
-// Light and the share of the pixel that it fills, as straight alpha has it.
-static void develop_floats(const developing *d, vec3 mean, float alpha, float out[4])
-{
-    if (d->options->background == AG_BACKGROUND_COLOR) {
+    const float *backdrop = d->options->background_color;
+    if (d->options->background == AG_BACKGROUND_COLOR && d->options->format == AG_FORMAT_RGBA32F) {
         for (int i = 0; i < 3; i++)
-            mean[i] += (1 - alpha) * color_srgb_decode_channel(d->options->background_color[i]);
+            mean[i] += (1 - alpha) * color_srgb_decode_channel(backdrop[i]);
         alpha = 1;
     }
     float scale = alpha > 0 && alpha < 1 ? 1 / alpha : 1;
     for (int i = 0; i < 3; i++)
         out[i] = mean[i] * scale;
     out[3] = alpha;
-}
-
-static void develop_bytes(const developing *d, vec3 mean, float alpha, uint8_t out[4])
-{
-    vec3 shown = display(tone_of(d->options), mean * (alpha > 0 ? 1 / alpha : 0));
-    if (d->options->background == AG_BACKGROUND_COLOR) {
-        for (int i = 0; i < 3; i++)
-            shown[i] =
-                mix(color_srgb_decode_channel(d->options->background_color[i]), shown[i], alpha);
-        alpha = 1;
-    }
-    for (int i = 0; i < 3; i++)
-        out[i] = alpha > 0 ? srgb_encode(&d->encoder, shown[i]) : 0;
-    out[3] = (uint8_t)(min(alpha, 1) * 255 + 0.5f);
 }
 
 static void develop_row(void *context, size_t y)
@@ -182,27 +160,26 @@ static void develop_row(void *context, size_t y)
         size_t at = y * d->film->width + x;
         const film_pixel *p = &d->film->pixels[at];
         float scale = inverse(samples_at(d->film, x, (uint32_t)y));
-        if (d->image->format == AG_FORMAT_RGBA8)
-            develop_bytes(d, mean_of(p, scale), p->alpha * scale,
-                          (uint8_t *)d->image->pixels + 4 * at);
-        else
-            develop_floats(d, mean_of(p, scale), p->alpha * scale,
-                           (float *)d->image->pixels + 4 * at);
+        develop(d, mean_of(p, scale), p->alpha * scale, (float *)d->image->pixels + 4 * at);
     }
 }
 
 ag_status film_picture(const ag_log *log, const film *f, const ag_render_options *options,
                        ag_image **image)
 {
-    const ag_image_desc desc = { f->width, f->height, options->format, NULL };
+    const ag_image_desc desc = { f->width, f->height, AG_FORMAT_RGBA32F, NULL };
     developing d = { .film = f, .options = options };
     ag_status status = ag_image_create(log, &desc, &d.image);
     if (status)
         return status;
-    srgb_encoder_init(&d.encoder);
     parallel_for(f->height, develop_row, &d);
-    *image = d.image;
-    return AG_OK;
+    if (options->format == AG_FORMAT_RGBA32F) {
+        *image = d.image;
+        return AG_OK;
+    }
+    status = ag_image_display(log, d.image, options, image);
+    ag_image_destroy(d.image);
+    return status;
 }
 
 static void aov_row(void *context, size_t y)
