@@ -6,15 +6,18 @@ _argand_options() {
 _argand() {
     local word=$2 before=$3 words= files=
     case $before in
-    argand | */argand) words='render compare info devices demo help --version' ;;
+    argand | */argand) words='render reference compare info devices demo help --version' ;;
     --tonemap) words='none reinhard aces aces-narkowicz neutral agx' ;;
     --transfer) words='srgb gamma2.2' ;;
     --area-lights) words='exact ltc representative-point' ;;
+    --aov) words='albedo normal depth direct indirect' ;;
+    --parts) words='seen lights diffuse specular emitted' ;;
+    --estimator) words='both lights surface' ;;
     --quality) words='fast default best' ;;
     --background) words='env transparent' ;;
     --env) words='studio sky none' files=1 ;;
     --device) words='auto cpu' ;;
-    help) words='render compare info devices demo' ;;
+    help) words='render reference compare info devices demo' ;;
     *)
         if [[ $word == -* ]]; then
             words=$(_argand_options "${COMP_WORDS[1]}")

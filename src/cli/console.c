@@ -94,24 +94,37 @@ void console_say(console *c, ag_log_level level, const char *format, ...)
         write_sentence(c, level, text);
 }
 
-void console_stage(console *c, const char *stage, double fraction)
+static void draw(console *c)
+{
+    char bar[BAR_WIDTH + 1];
+    int width = *c->detail ? BAR_WIDTH / 2 : BAR_WIDTH;
+    memset(bar, ' ', BAR_WIDTH);
+    memset(bar, '#', (size_t)(c->percent * width / 100));
+    bar[width] = 0;
+    fprintf(stderr, "\r\033[K%-10s [%s] %3d %%  %s", c->stage, bar, c->percent, c->detail);
+    fflush(stderr);
+    c->bar_drawn = true;
+}
+
+void console_stage_detail(console *c, const char *stage, double fraction, const char *detail)
 {
     if (!c->bar)
         return;
     int percent = fraction > 0 ? fraction < 1 ? (int)(fraction * 100) : 100 : 0;
     pthread_mutex_lock(&c->lock);
-    if (percent != c->percent || strcmp(stage, c->stage) != 0 || !c->bar_drawn) {
-        char bar[BAR_WIDTH + 1];
-        memset(bar, ' ', BAR_WIDTH);
-        memset(bar, '#', (size_t)(percent * BAR_WIDTH / 100));
-        bar[BAR_WIDTH] = 0;
-        fprintf(stderr, "\r\033[K%-10s [%s] %3d %%", stage, bar, percent);
-        fflush(stderr);
+    if (percent != c->percent || strcmp(stage, c->stage) != 0 || strcmp(detail, c->detail) != 0 ||
+        !c->bar_drawn) {
         c->percent = percent;
         snprintf(c->stage, sizeof c->stage, "%s", stage);
-        c->bar_drawn = true;
+        snprintf(c->detail, sizeof c->detail, "%s", detail);
+        draw(c);
     }
     pthread_mutex_unlock(&c->lock);
+}
+
+void console_stage(console *c, const char *stage, double fraction)
+{
+    console_stage_detail(c, stage, fraction, "");
 }
 
 static bool update(void *user, const char *stage, double fraction)

@@ -19,6 +19,7 @@ typedef struct console {
     bool bar;             // draw progress
     bool bar_drawn;       // a bar stands on the terminal's last line
     char stage[24];       // what the bar shows
+    char detail[80];
     int percent;
     bool keeping; // keep sentences instead of showing them
     sentence *kept;
@@ -42,6 +43,9 @@ __attribute__((format(printf, 3, 4))) void console_say(console *console, ag_log_
 
 // Move the bar; `fraction` in [0, 1].
 void console_stage(console *console, const char *stage, double fraction);
+
+// The same with up to 36 letters behind a shorter bar.
+void console_stage_detail(console *console, const char *stage, double fraction, const char *detail);
 
 // Take the bar away.
 void console_clear(console *console);

@@ -69,16 +69,33 @@ output_verdict output_check(console *c, const char *path, ag_format *format)
     return OUTPUT_NO_PLACE;
 }
 
-ag_status output_save(console *c, const ag_image *image, const char *path)
+static void hold_interrupts(sigset_t *before)
 {
-    ag_log log = console_log(c);
-    sigset_t interrupts, before;
+    sigset_t interrupts;
     sigemptyset(&interrupts);
     sigaddset(&interrupts, SIGINT);
     sigaddset(&interrupts, SIGTERM);
     sigaddset(&interrupts, SIGHUP);
-    pthread_sigmask(SIG_BLOCK, &interrupts, &before);
+    pthread_sigmask(SIG_BLOCK, &interrupts, before);
+}
+
+ag_status output_save(console *c, const ag_image *image, const char *path)
+{
+    ag_log log = console_log(c);
+    sigset_t before;
+    hold_interrupts(&before);
     ag_status status = ag_image_save(&log, image, path, NULL);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return status;
+}
+
+ag_status output_save_layers(console *c, const ag_image_layer *layers, size_t count,
+                             const char *path)
+{
+    ag_log log = console_log(c);
+    sigset_t before;
+    hold_interrupts(&before);
+    ag_status status = ag_image_save_layers(&log, layers, count, path);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return status;
 }

@@ -16,5 +16,7 @@ output_verdict output_check(console *console, const char *path, ag_format *forma
 
 // Write the picture.  An interrupt meanwhile waits until the file is whole.
 ag_status output_save(console *console, const ag_image *image, const char *path);
+ag_status output_save_layers(console *console, const ag_image_layer *layers, size_t count,
+                             const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-// argand render: from a file to a picture.
+// argand render: from a file to a picture, where there is no device by path tracing.
 //
 // The device opens on a second thread while the scene loads (on a third the environment's
 // file is read), so that the wall time is the longest of them.
@@ -6,6 +6,10 @@
 #include "output.h"
 #include "render_report.h"
 #include "shot.h"
+#include "tracing.h"
+
+#include <stdio.h>
+#include <string.h>
 
 typedef struct work {
     const shot_request *request;
@@ -14,7 +18,8 @@ typedef struct work {
     shot shot;
     task opening;          // beside the loading
     ag_device *device;     // made by `opening`
-    ag_renderer *renderer; // made by `opening`
+    ag_renderer *renderer; // made by `opening`, or
+    tracing tracing;       // where there is no device
     ag_image *picture;
     render_report report;
 } work;
@@ -31,18 +36,50 @@ static ag_status open_device(void *context, const ag_log *log)
     return status ? status : ag_renderer_create(w->device, &w->renderer);
 }
 
-// Everything that the renderer needs, made side by side.
+// Does nothing on this machine suit "auto"?
+static bool lacks_device(work *w)
+{
+    return task_wait(&w->opening) == AG_ERROR_DEVICE && strcmp(w->request->device, "auto") == 0 &&
+           !w->request->validate;
+}
+
+// Everything that the picture needs, made side by side.
 static ag_status prepare(work *w)
 {
     task_start(&w->opening, w->console.level, open_device, w);
     ag_status status = shot_open(&w->shot, w->request, &w->console);
-    ag_status opened = task_join(&w->opening, &w->console);
+    ag_status opened = lacks_device(w) ? AG_OK : task_join(&w->opening, &w->console);
     w->report.device_ms = w->opening.ms;
     w->report.environment_ms = w->shot.reading.ms;
     if (status || opened)
         return status ? status : opened;
     // The scene is drawn once: its images need not be in memory twice.
-    return ag_renderer_take(w->renderer, w->shot.scene, &w->report.take_ms);
+    return w->renderer ? ag_renderer_take(w->renderer, w->shot.scene, &w->report.take_ms) : AG_OK;
+}
+
+static const char *why_no_device(const work *w)
+{
+    const console *said = &w->opening.console;
+    for (size_t i = 0; i < said->kept_count; i++)
+        if (said->kept[i].level == AG_LOG_ERROR)
+            return said->kept[i].text;
+    return "there is no Vulkan device";
+}
+
+static ag_status trace(work *w, const ag_camera_desc *camera, const ag_render_options *options)
+{
+    static const uint32_t samples[] = {
+        [AG_QUALITY_FAST] = 16,
+        [AG_QUALITY_DEFAULT] = 64,
+        [AG_QUALITY_BEST] = 256,
+    };
+    ag_reference_goal goal = { .samples = samples[options->quality] };
+    console_say(&w->console, AG_LOG_WARNING,
+                "%s; the picture is path traced instead, with %u samples a pixel", why_no_device(w),
+                goal.samples);
+    ag_status status =
+        tracing_run(&w->tracing, &w->console, w->shot.scene, camera, options, NULL, &goal);
+    return status ? status : ag_reference_picture(w->tracing.reference, &w->picture);
 }
 
 static ag_status render(work *w)
@@ -50,9 +87,11 @@ static ag_status render(work *w)
     ag_camera_desc camera;
     ag_render_options options;
     ag_status status = shot_compose(&w->shot, w->format, &camera, &options);
-    return status ? status
-                  : ag_renderer_render(w->renderer, w->shot.scene, &camera, &options, &w->picture,
-                                       &w->report.stats);
+    if (status)
+        return status;
+    return w->renderer ? ag_renderer_render(w->renderer, w->shot.scene, &camera, &options,
+                                            &w->picture, &w->report.stats)
+                       : trace(w, &camera, &options);
 }
 
 static ag_status save(work *w)
@@ -66,7 +105,7 @@ static ag_status save(work *w)
 
 static ag_status check_validation(work *w)
 {
-    uint32_t count = ag_device_validation_messages(w->device);
+    uint32_t count = w->device ? ag_device_validation_messages(w->device) : 0;
     w->report.validation_messages = count;
     if (!w->request->validate || count == 0)
         return AG_OK;
@@ -79,11 +118,24 @@ static ag_status check_validation(work *w)
 static void tear_down(work *w)
 {
     ag_image_destroy(w->picture);
+    tracing_finish(&w->tracing);
     ag_renderer_destroy(w->renderer);
     ag_device_destroy(w->device);
     shot_finish(&w->shot);
     task_finish(&w->opening);
     console_finish(&w->console);
+}
+
+// What stands for a device and its figures where a picture was path traced.
+static void report_tracing(render_report *report, const ag_reference_state *state)
+{
+    snprintf(report->device.name, sizeof report->device.name, "path tracer");
+    report->device.kind = AG_DEVICE_CPU;
+    report->stats.samples = state->samples;
+    report->stats.bake_ms = state->prepare_ms;
+    report->stats.frame_ms = state->trace_ms;
+    report->stats.triangles = report->scene.triangles;
+    report->stats.instances = (uint32_t)report->scene.instances;
 }
 
 static ag_status make_picture(work *w, double start)
@@ -98,7 +150,10 @@ static ag_status make_picture(work *w, double start)
         return status;
     w->report.total_ms = now_ms() - start;
     w->report.scene = ag_scene_summarize(w->shot.scene);
-    w->report.device = *ag_device_describe(w->device);
+    if (w->renderer)
+        w->report.device = *ag_device_describe(w->device);
+    else
+        report_tracing(&w->report, &w->tracing.state);
     status = check_validation(w);
     render_report_print(&w->report, w->request);
     return status;

@@ -2,15 +2,9 @@
 #include "render_report.h"
 
 #include "json.h"
+#include "task.h"
 
 #include <stdio.h>
-#include <sys/resource.h>
-
-static uint64_t peak_memory_bytes(void)
-{
-    struct rusage usage;
-    return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
-}
 
 static void print_device(json *j, const ag_device_info *device)
 {

@@ -2,6 +2,7 @@
 #include "task.h"
 
 #include <signal.h>
+#include <sys/resource.h>
 #include <time.h>
 
 double now_ms(void)
@@ -9,6 +10,12 @@ double now_ms(void)
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+uint64_t peak_memory_bytes(void)
+{
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
 }
 
 static void *run(void *argument)
@@ -37,12 +44,19 @@ void task_start(task *t, ag_log_level level, ag_status (*call)(void *, const ag_
         run(t);
 }
 
+ag_status task_wait(task *t)
+{
+    if (t->started)
+        pthread_join(t->thread, NULL);
+    t->started = false;
+    return t->status;
+}
+
 ag_status task_join(task *t, console *shown)
 {
     if (!t->run || t->joined)
         return t->status;
-    if (t->started)
-        pthread_join(t->thread, NULL);
+    task_wait(t);
     t->joined = true;
     console_replay(&t->console, shown);
     return t->status;

@@ -18,6 +18,9 @@ typedef struct task {
 void task_start(task *task, ag_log_level level, ag_status (*run)(void *, const ag_log *),
                 void *context);
 
+// Wait for it; what it said stays kept.
+ag_status task_wait(task *task);
+
 // Wait for it, show on `shown` what it said, and return how it ended.  Again: the same
 // status, at once.  A task that was never started ended with AG_OK.
 ag_status task_join(task *task, console *shown);
@@ -27,5 +30,8 @@ void task_finish(task *task);
 
 // Milliseconds since some fixed moment.
 double now_ms(void);
+
+// The most that the process has had in memory so far.
+uint64_t peak_memory_bytes(void);
 
 #endif

@@ -51,6 +51,20 @@ bool value_index(const char *value, uint32_t *index)
     return read_digits(value, strlen(value), index);
 }
 
+const char *value_whole(const char *value, void *field)
+{
+    return value_index(value, field) ? NULL : "is not a whole number, 0 to 999999999";
+}
+
+const char *value_samples(const char *value, void *field)
+{
+    uint32_t samples;
+    if (!value_index(value, &samples) || samples < 1 || samples > 1 << 24)
+        return "is not a whole number, 1 to 16777216";
+    *(uint32_t *)field = samples;
+    return NULL;
+}
+
 const char *value_size(const char *value, void *field)
 {
     picture_size size;
@@ -108,6 +122,30 @@ const char *value_ev100(const char *value, void *field)
     if (ev < -32 || ev > 32)
         return "is not between -32 and 32";
     *(float *)field = (float)ev;
+    return NULL;
+}
+
+const char *value_seconds(const char *value, void *field)
+{
+    double seconds;
+    const char *complaint = read_alone(value, &seconds);
+    if (complaint)
+        return complaint;
+    if (seconds < 1e-3 || seconds > 1e7)
+        return "is not between 0.001 and 1e7 seconds";
+    *(float *)field = (float)seconds;
+    return NULL;
+}
+
+const char *value_noise(const char *value, void *field)
+{
+    double noise;
+    const char *complaint = read_alone(value, &noise);
+    if (complaint)
+        return complaint;
+    if (noise < 1e-5 || noise >= 1)
+        return "is no relative error: at least 0.00001 and below 1 (0.01 is 1 %)";
+    *(float *)field = (float)noise;
     return NULL;
 }
 

@@ -16,11 +16,17 @@ const char *value_text(const char *value, void *field);
 // WxH; a picture_size of at most 2^28 pixels.
 const char *value_size(const char *value, void *field);
 
+// Whole numbers; `field` is a uint32_t.
+const char *value_whole(const char *value, void *field);   // 0 to 999999999
+const char *value_samples(const char *value, void *field); // 1 to 2^24
+
 // Finite numbers; `field` is a float.
 const char *value_degrees(const char *value, void *field);     // any; radians in the field
 const char *value_fov_degrees(const char *value, void *field); // (0, 180); radians
 const char *value_factor(const char *value, void *field);      // above 0
 const char *value_ev100(const char *value, void *field);       // [-32, 32]
+const char *value_seconds(const char *value, void *field);     // 0.001 to 1e7
+const char *value_noise(const char *value, void *field);       // 1e-5 to 1, without it
 const char *value_at_least_0(const char *value, void *field);
 const char *value_cone_degrees(const char *value, void *field); // [0, 90]; radians
 const char *value_sun_degrees(const char *value, void *field);  // (0, 90); radians

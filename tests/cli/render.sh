@@ -150,10 +150,3 @@ grep -q 'old.png: .*File too large' err || fail "a full disk says so"
 cmp -s old.png before || fail "the old picture is gone"
 rm old.png before
 nothing_left
-
-# No driver: one sentence with the way out.
-VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent
-export VK_DRIVER_FILES VK_ICD_FILENAMES
-expect 1 "mesa-vulkan-drivers" render "$triangle" -o x.png
-expect 1 "mesa-vulkan-drivers" devices
-nothing_left

@@ -10,7 +10,7 @@ set -eu
 [ $? -ne 0 ] || true
 grep -q '^usage: argand render' err || fail "argand alone prints its usage"
 "$argand" --version | grep -qx 'argand [0-9]*\.[0-9]*\.[0-9]*' || fail "--version"
-for command in render compare info devices demo help; do
+for command in render reference compare info devices demo help; do
     "$argand" help | grep -q "^  $command " || fail "help lists $command"
     "$argand" help $command | grep -q "^usage: argand $command" || fail "help $command"
     "$argand" $command --help >out || fail "$command --help"
