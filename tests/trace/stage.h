@@ -32,12 +32,14 @@ static inline ag_scene *stage_dark(void)
 }
 
 static inline void stage_surround_image(ag_scene *scene, uint32_t width, uint32_t height,
-                                        const float (*pixels)[4])
+                                        const float (*pixels)[4], float rotation_rad)
 {
     const ag_image_desc image_desc = { width, height, AG_FORMAT_RGBA32F, pixels };
     ag_image *image;
     OK(ag_image_create(NULL, &image_desc, &image));
-    const ag_environment_desc desc = { .kind = AG_ENVIRONMENT_IMAGE, .image = image };
+    const ag_environment_desc desc = { .kind = AG_ENVIRONMENT_IMAGE,
+                                       .image = image,
+                                       .rotation_rad = rotation_rad };
     OK(ag_scene_set_environment(scene, &desc));
     ag_image_destroy(image);
 }
@@ -49,7 +51,7 @@ static inline void stage_surround(ag_scene *scene, float radiance)
     float pixels[W * H][4];
     for (int i = 0; i < W * H; i++)
         memcpy(pixels[i], (float[4]) { radiance, radiance, radiance, 1 }, sizeof *pixels);
-    stage_surround_image(scene, W, H, (const float(*)[4])pixels);
+    stage_surround_image(scene, W, H, (const float(*)[4])pixels, 0);
 }
 
 // A lambertian surface, exactly: radiance = albedo * irradiance / pi.
