@@ -380,7 +380,7 @@ static void pictures_of_skies(void **state)
     for (int i = 0; i < WIDE * HIGH; i++) {
         seed = seed * 1664525u + 1013904223u;
         float light = (float)(seed >> 8) * 0x1p-24f;
-        light = i == 3 * WIDE + 5 ? 300 : light * light;
+        light = i == 3 * WIDE + 11 ? 300 : light * light;
         memcpy(pixels[i], (float[4]) { light, light, light, 1 }, sizeof *pixels);
     }
     const double turn = 1.1;
