@@ -24,8 +24,8 @@ typedef struct command {
     exit_code (*run)(int argc, char **argv); // arguments behind the command's name
 } command;
 
-extern const command command_render, command_reference, command_compare, command_info,
-    command_devices, command_demo, command_help;
+extern const command command_render, command_reference, command_compare, command_validate,
+    command_info, command_devices, command_demo, command_help;
 
 // Command `index`, NULL past the last.
 const command *command_at(size_t index);

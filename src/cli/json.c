@@ -32,6 +32,8 @@ static void write_string(FILE *file, const char *text)
             fputs("\\ufffd", file); // a file's name may hold any bytes
         else if (*s == '"' || *s == '\\')
             fprintf(file, "\\%c", *s);
+        else if (*s == '<')
+            fputs("\\u003c", file); // lest the text end a script that it stands in
         else if (*s < 0x20 || *s == 0x7f)
             fprintf(file, "\\u%04x", *s);
         else

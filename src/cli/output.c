@@ -4,7 +4,9 @@
 #include "text.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -42,15 +44,9 @@ static bool folder_of(const char *path, char *folder, size_t capacity)
     return true;
 }
 
-output_verdict output_check(console *c, const char *path, ag_format *format)
+// Says what is wrong where `path` cannot be made in its folder.
+static bool has_place(console *c, const char *path)
 {
-    if (!known_ending(path, format)) {
-        console_say(c, AG_LOG_ERROR,
-                    "%s: its name must end in .png, .jpg, .webp, .exr or .hdr, which says what "
-                    "to write",
-                    path);
-        return OUTPUT_UNKNOWN_KIND;
-    }
     char folder[4096];
     struct stat st;
     if (!folder_of(path, folder, sizeof folder))
@@ -62,10 +58,26 @@ output_verdict output_check(console *c, const char *path, ag_format *format)
     else if (access(folder, W_OK | X_OK) != 0)
         console_say(c, AG_LOG_ERROR, "%s: cannot be written into '%s': %s", path, folder,
                     strerror(errno));
-    else if (stat(path, &st) == 0 && S_ISDIR(st.st_mode))
-        console_say(c, AG_LOG_ERROR, "%s: is a folder", path);
     else
+        return true;
+    return false;
+}
+
+output_verdict output_check(console *c, const char *path, ag_format *format)
+{
+    if (!known_ending(path, format)) {
+        console_say(c, AG_LOG_ERROR,
+                    "%s: its name must end in .png, .jpg, .webp, .exr or .hdr, which says what "
+                    "to write",
+                    path);
+        return OUTPUT_UNKNOWN_KIND;
+    }
+    struct stat st;
+    if (!has_place(c, path))
+        return OUTPUT_NO_PLACE;
+    if (stat(path, &st) != 0 || !S_ISDIR(st.st_mode))
         return OUTPUT_FINE;
+    console_say(c, AG_LOG_ERROR, "%s: is a folder", path);
     return OUTPUT_NO_PLACE;
 }
 
@@ -98,4 +110,81 @@ ag_status output_save_layers(console *c, const ag_image_layer *layers, size_t co
     ag_status status = ag_image_save_layers(&log, layers, count, path);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return status;
+}
+
+// ---- Pages -----------------------------------------------------------------------
+
+// The path of the page in `folder`; false when that is too long.
+static bool page_in(const char *folder, char *path, size_t capacity)
+{
+    size_t length = strlen(folder);
+    while (length > 1 && folder[length - 1] == '/')
+        length--;
+    int used = snprintf(path, capacity, "%.*s/index.html", (int)length, folder);
+    return used > 0 && (size_t)used < capacity;
+}
+
+bool output_check_folder(console *c, const char *folder)
+{
+    char path[4096];
+    struct stat st;
+    if (!page_in(folder, path, sizeof path)) {
+        console_say(c, AG_LOG_ERROR, "The output's path is too long");
+        return false;
+    }
+    if (stat(folder, &st) == 0 && !S_ISDIR(st.st_mode)) {
+        console_say(c, AG_LOG_ERROR, "%s: is a file; the report needs a folder", folder);
+        return false;
+    }
+    if (stat(folder, &st) == 0)
+        return has_place(c, path);
+    path[strlen(path) - strlen("/index.html")] = 0; // the folder without slashes behind it
+    return has_place(c, path);
+}
+
+static bool write_all(int file, const char *data, size_t size)
+{
+    while (size) {
+        ssize_t n = write(file, data, size);
+        if (n < 0 && errno != EINTR)
+            return false;
+        data += n > 0 ? n : 0;
+        size -= n > 0 ? (size_t)n : 0;
+    }
+    return true;
+}
+
+// Beside its place, then renamed.
+static bool write_whole(const char *path, const char *data, size_t size)
+{
+    char beside[4096 + 32];
+    snprintf(beside, sizeof beside, "%s.%ld.tmp", path, (long)getpid());
+    int file = open(beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0)
+        return false;
+    bool written = write_all(file, data, size);
+    if (close(file) == 0 && written && rename(beside, path) == 0)
+        return true;
+    int reason = errno;
+    unlink(beside);
+    errno = reason;
+    return false;
+}
+
+ag_status output_write_page(console *c, const char *folder, const char *page, size_t size)
+{
+    char path[4096];
+    sigset_t before;
+    if (!page_in(folder, path, sizeof path))
+        return AG_ERROR_FILE; // output_check_folder has said so
+    hold_interrupts(&before);
+    bool made = mkdir(folder, 0777) == 0;
+    bool written = write_whole(path, page, size);
+    if (!written) {
+        console_say(c, AG_LOG_ERROR, "%s: cannot be written: %s", path, strerror(errno));
+        if (made)
+            rmdir(folder);
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return written ? AG_OK : AG_ERROR_FILE;
 }

@@ -19,4 +19,10 @@ ag_status output_save(console *console, const ag_image *image, const char *path)
 ag_status output_save_layers(console *console, const ag_image_layer *layers, size_t count,
                              const char *path);
 
+// Whether a page can go into `folder`, which may have to be made; says what is wrong.
+bool output_check_folder(console *console, const char *folder);
+
+// Write `folder`/index.html, whole or not at all, making the folder where it is not there.
+ag_status output_write_page(console *console, const char *folder, const char *page, size_t size);
+
 #endif
