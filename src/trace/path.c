@@ -163,7 +163,10 @@ static void light_by_emitters(path *p, const bsdf *b, vec3 from)
     vec3 f = s.f.base + s.f.lobe;
     if (!(max(f[0], max(f[1], f[2])) > 0))
         return;
-    vec3 light = place_emission(&p->scene->world, &found.at, -found.direction);
+    const world *w = &p->scene->world;
+    const hit *on = &found.at;
+    vec3 light = place_emission(w, on, -found.direction) *
+                 world_opacity(w, on->instance, on->triangle, on->u, on->v);
     float weight = p->scene->options.unshadowed ? 1 : weight_of_light(p, found.density, s.density);
     if (max(light[0], max(light[1], light[2])) > 0 && weight > 0 &&
         is_open(p, from, found.direction, found.distance * 0.9999f))
