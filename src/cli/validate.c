@@ -127,13 +127,14 @@ static ag_status make_scene(work *w)
 
 static ag_status write_page(work *w, const validation_report *report)
 {
-    char *page;
+    char *page = NULL;
     size_t size;
-    const ag_log log = console_log(&w->console);
+    ag_status status = AG_ERROR_MEMORY;
     console_stage(&w->console, "write", 1);
-    ag_status status = validation_report_page(report, &log, &page, &size);
-    if (!status)
+    if (validation_report_page(report, &page, &size))
         status = output_write_page(&w->console, w->request->shot.output, page, size);
+    else
+        console_say(&w->console, AG_LOG_ERROR, "There is no memory for the page");
     free(page);
     console_clear(&w->console);
     return status;

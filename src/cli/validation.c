@@ -5,9 +5,13 @@
 // the parts have not is the last of them: shadows, and light that surfaces pass on.
 #include "validation.h"
 
+#include "data_uri.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { QUALITY_WHOLE = 92, QUALITY_PART = 85 };
 
 typedef struct work {
     validation *v;
@@ -40,7 +44,8 @@ static ag_status draw(work *w, const ag_render_options *options, ag_image **imag
     ag_render_stats stats;
     ag_status status =
         ag_renderer_render(w->renderer, w->shot->scene, &w->camera, options, image, &stats);
-    w->v->frame_ms = stats.frame_ms;
+    if (options == &w->look)
+        w->v->frame_ms = stats.frame_ms;
     return status;
 }
 
@@ -85,7 +90,21 @@ static ag_status trace_part(work *w, const ag_render_options *picture, bool dire
 
 // ---- Causes --------------------------------------------------------------------
 
-// Measure two linear pictures and keep them as they are shown.
+// Two pictures as they are shown.
+static ag_status keep(const work *w, ag_image *const shown[2], int quality, picture_pair *pair)
+{
+    const ag_log *log = &w->shot->log;
+    ag_status status = data_uri_from_image(log, shown[0], quality, &pair->real_time);
+    return status ? status : data_uri_from_image(log, shown[1], quality, &pair->reference);
+}
+
+static void drop(ag_image *images[2])
+{
+    ag_image_destroy(images[0]);
+    ag_image_destroy(images[1]);
+}
+
+// Measure two linear pictures and keep them.
 static ag_status add_cause(work *w, const char *name, const char *about, const ag_image *real_time,
                            const ag_image *reference)
 {
@@ -93,19 +112,22 @@ static ag_status add_cause(work *w, const char *name, const char *about, const a
         return AG_OK; // the scene has no such light
     cause *c = &w->v->causes[w->v->cause_count++];
     const ag_log *log = &w->shot->log;
+    ag_image *shown[2] = { NULL, NULL };
     *c = (cause) { .about = about, .apart = linear_apart(reference, real_time) };
     snprintf(c->name, sizeof c->name, "%s", name);
     c->apart.error /= w->mean;
     c->apart.bias /= w->mean;
     ag_difference difference;
-    ag_status status = ag_image_display(log, real_time, &w->look, &c->shown.real_time);
+    ag_status status = ag_image_display(log, real_time, &w->look, &shown[0]);
     if (!status)
-        status = ag_image_display(log, reference, &w->look, &c->shown.reference);
+        status = ag_image_display(log, reference, &w->look, &shown[1]);
     if (!status)
-        status =
-            ag_image_compare(log, c->shown.reference, c->shown.real_time, NULL, &difference, NULL);
-    if (!status)
+        status = ag_image_compare(log, shown[1], shown[0], NULL, &difference, NULL);
+    if (!status) {
         c->flip = difference.flip;
+        status = keep(w, shown, QUALITY_PART, &c->shown);
+    }
+    drop(shown);
     return status;
 }
 
@@ -125,12 +147,6 @@ static ag_status make_part(work *w, uint32_t parts, uint32_t light, ag_image *ma
     made[0] = made[1] = NULL;
     ag_status status = draw(w, &options, &made[0]);
     return status ? status : trace_part(w, &options, true, &made[1]);
-}
-
-static void drop(ag_image *made[2])
-{
-    ag_image_destroy(made[0]);
-    ag_image_destroy(made[1]);
 }
 
 static ag_status add_part(work *w, const char *name, const char *about, uint32_t parts,
@@ -176,6 +192,7 @@ static ag_status add_other_lights(work *w, const char *name, const char *about)
     return status;
 }
 
+// How many pictures of lights there are.
 static uint32_t light_parts(const work *w)
 {
     uint32_t lights = ag_scene_summarize(w->shot->scene).lights;
@@ -245,37 +262,50 @@ static ag_status add_causes(work *w)
 
 // ---- The whole -----------------------------------------------------------------
 
-static ag_status measure(work *w, const ag_image *real_time, const ag_image *reference)
+static ag_status measure_light(work *w, const ag_image *real_time, const ag_image *reference)
 {
     validation *v = w->v;
-    const ag_log *log = &w->shot->log;
     w->mean = linear_mean(reference);
     w->mean = w->mean > 0 ? w->mean : 1; // a black picture: errors are what they are
     v->apart = linear_apart(reference, real_time);
     v->apart.error /= w->mean;
     v->apart.bias /= w->mean;
-    ag_status status = ag_image_compare(log, reference, real_time, NULL, &v->linear, NULL);
+    return ag_image_compare(&w->shot->log, reference, real_time, NULL, &v->linear, NULL);
+}
+
+// The pictures as they are shown: what `argand render` would write, and the reference's light.
+static ag_status measure_look(work *w, const ag_image *reference)
+{
+    validation *v = w->v;
+    const ag_log *log = &w->shot->log;
+    ag_image *shown[2] = { NULL, NULL }, *heat = NULL;
+    ag_status status = draw(w, &w->look, &shown[0]);
     if (!status)
-        status = ag_image_display(log, reference, &w->look, &v->shown.reference);
-    return status ? status
-                  : ag_image_compare(log, v->shown.reference, v->shown.real_time, NULL, &v->coded,
-                                     &v->heat);
+        status = ag_image_display(log, reference, &w->look, &shown[1]);
+    if (!status)
+        status = ag_image_compare(log, shown[1], shown[0], NULL, &v->coded, &heat);
+    if (!status)
+        status = keep(w, shown, QUALITY_WHOLE, &v->shown);
+    if (!status)
+        status = data_uri_from_image(log, heat, QUALITY_WHOLE, &v->heat);
+    ag_image_destroy(heat);
+    drop(shown);
+    return status;
 }
 
 static ag_status make_whole(work *w)
 {
     const ag_render_options linear = linear_options(w);
     const ag_reference_options everything = { 0 };
-    ag_image *real_time = NULL, *reference = NULL;
-    ag_status status = draw(w, &linear, &real_time);
+    ag_image *made[2] = { NULL, NULL };
+    ag_status status = draw(w, &linear, &made[0]);
     if (!status)
-        status = draw(w, &w->look, &w->v->shown.real_time);
+        status = trace(w, &linear, &everything, w->goal, &w->v->state, &made[1]);
     if (!status)
-        status = trace(w, &linear, &everything, w->goal, &w->v->state, &reference);
+        status = measure_light(w, made[0], made[1]);
     if (!status)
-        status = measure(w, real_time, reference);
-    ag_image_destroy(real_time);
-    ag_image_destroy(reference);
+        status = measure_look(w, made[1]);
+    drop(made);
     return status;
 }
 
@@ -311,6 +341,8 @@ ag_status validation_make(validation *v, shot *s, ag_renderer *renderer,
     work w = { .v = v, .shot = s, .renderer = renderer, .goal = goal, .progress = progress };
     ag_status status = shot_compose(s, AG_FORMAT_RGBA8, &w.camera, &w.look);
     w.look.progress = (ag_progress) { 0 };
+    v->width = w.look.width;
+    v->height = w.look.height;
     if (!status)
         status = plan(&w);
     double part = status ? 0 : part_share(&w);
@@ -326,17 +358,17 @@ ag_status validation_make(validation *v, shot *s, ag_renderer *renderer,
     return status;
 }
 
-static void drop_pair(picture_pair *pair)
+static void free_pair(picture_pair *pair)
 {
-    ag_image_destroy(pair->real_time);
-    ag_image_destroy(pair->reference);
+    free(pair->real_time);
+    free(pair->reference);
 }
 
 void validation_finish(validation *v)
 {
-    drop_pair(&v->shown);
-    ag_image_destroy(v->heat);
+    free_pair(&v->shown);
+    free(v->heat);
     for (size_t i = 0; i < v->cause_count; i++)
-        drop_pair(&v->causes[i].shown);
+        free_pair(&v->causes[i].shown);
     *v = (validation) { 0 };
 }

@@ -5,9 +5,9 @@
 #include "linear.h"
 #include "shot.h"
 
-// As they are shown, RGBA8.
+// As they are shown, in data URIs; all numbers are of the pictures before that.
 typedef struct picture_pair {
-    ag_image *real_time, *reference;
+    char *real_time, *reference;
 } picture_pair;
 
 // A part of the light, alone in both pictures.
@@ -27,8 +27,9 @@ enum {
 
 typedef struct validation {
     const char *input; // borrowed
+    uint32_t width, height;
     picture_pair shown;
-    ag_image *heat;
+    char *heat;
     ag_difference coded, linear; // of the pictures as shown, and of their light
     linear_difference apart;     // over the mean of the reference
     ag_reference_state state;

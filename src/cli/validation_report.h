@@ -12,9 +12,9 @@ typedef struct validation_report {
     double total_ms;
 } validation_report;
 
-// The page, one HTML text that needs nothing else; the caller's to free().
-ag_status validation_report_page(const validation_report *report, const ag_log *log, char **page,
-                                 size_t *size);
+// The page, one HTML text that needs nothing else; the caller's to free() either way.  False: no
+// memory.
+bool validation_report_page(const validation_report *report, char **page, size_t *size);
 
 // The numbers, as one JSON object on standard output, or a line a scene.
 void validation_report_print(const validation_report *report, const shot_request *request);
