@@ -78,7 +78,9 @@ rm ./*.png
 for channel in R albedo.R albedo.B normal.X normal.Z depth.Z direct.G indirect.G; do
     LC_ALL=C grep -qa "$channel" x.exr || fail "no channel $channel"
 done
-rm x.exr
+"$argand" reference "$triangle" -o plain.exr $small >out
+"$argand" compare plain.exr x.exr --max-flip 0 >out 2>err || fail "layers change the picture"
+rm ./*.exr
 
 # What makes no sense.
 bad() {
@@ -111,15 +113,32 @@ expect 1 "none.glb" reference none.glb -o x.png
 expect 1 "the folder 'no' does not exist" reference "$triangle" -o no/x.png
 nothing_left
 
-# An interrupt ends it with what has been gathered, saved.
-timeout --preserve-status -s INT 3 \
+# An interrupt ends it with what has been gathered, saved.  (timeout alone sends two.)
+timeout --foreground --preserve-status -s INT 3 \
     "$argand" reference "$triangle" -o x.png --size 64x64 --time 100 --json >out 2>err ||
     fail "an interrupt is a failure"
 grep -Eq 'warning: interrupted: the picture has [0-9]+ samples? a pixel\.$' err ||
     fail "an interrupt without a sentence"
+[ "$(wc -l <err)" -eq 1 ] || fail "an interrupt with more than a sentence"
 "$json" out interrupted=true samples || fail "the report of what was interrupted"
 [ -s x.png ] || fail "an interrupt without a picture"
 rm x.png
+
+# A second one ends it at once, and leaves nothing half done.
+env --default-signal=INT \
+    "$argand" reference "$triangle" -o x.png --size 64x64 --time 100 >out 2>err &
+sleep 2
+for again in 1 2 3 4 5 6 7 8; do
+    kill -INT $! 2>/dev/null || true
+    sleep .01
+done
+set +e
+wait $!
+got=$?
+set -e
+[ $got -eq 130 ] || fail "interrupts end with $got"
+rm -f x.png
+nothing_left
 
 # `render` answers without a device, and says so in one line; not where one is asked for.
 expect 0 "the picture is path traced instead, with 16 samples a pixel" \
