@@ -217,7 +217,8 @@ const command command_render = {
         "seen from its own camera.  Without --env a procedural studio with soft boxes lights\n"
         "it, or what a built-in scene brings along; its own lights and those of --light always\n"
         "shine.  The picture appears whole or not at all.\n"
-        "In .exr and .hdr it is linear light times the exposure, without a tone curve.\n",
+        "In .exr and .hdr it is linear light times the exposure, without a tone curve.\n"
+        "Where there is no Vulkan device it is path traced, as by `argand reference`.\n",
     .options = { options, shot_options, shot_device_options },
     .more = lights_lesson,
     .examples = "  argand render helmet.glb -o helmet.png\n"

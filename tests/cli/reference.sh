@@ -72,6 +72,24 @@ lit="--env none --camera 0"
 cmp -s dark.png lit.png && fail "--light has no effect"
 rm ./*.png
 
+# Each of its own options changes the picture.
+spheres="reference demo:spheres --size 32x32 --spp 2"
+"$argand" $spheres -o plain.png >out || fail "demo:spheres"
+while read -r options; do
+    "$argand" $spheres -o other.png $options >out || fail "$options"
+    cmp -s plain.png other.png && fail "$options has no effect"
+done <<'END'
+--max-bounces 0
+--max-bounces 1
+--parts seen
+--unshadowed
+--clamp .1
+--estimator lights
+--estimator surface
+--spp 3
+END
+rm ./*.png
+
 # Layers.
 "$argand" reference "$triangle" -o x.exr $small --aov albedo,depth,normal,direct,indirect >out ||
     fail "--aov"
@@ -126,12 +144,10 @@ rm x.png
 
 # A second one ends it at once, and leaves nothing half done.
 env --default-signal=INT \
-    "$argand" reference "$triangle" -o x.png --size 64x64 --time 100 >out 2>err &
+    "$argand" reference "$triangle" -o x.png --size 512x512 --time 100 >out 2>err &
 sleep 2
-for again in 1 2 3 4 5 6 7 8; do
-    kill -INT $! 2>/dev/null || true
-    sleep .01
-done
+again=0
+while [ $((again += 1)) -lt 9999 ] && kill -INT $! 2>/dev/null; do :; done
 set +e
 wait $!
 got=$?
