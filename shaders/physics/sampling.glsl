@@ -124,9 +124,9 @@ static inline real sampling_blinn_density(vec3 wo, vec3 wi, real shininess)
     return wi[2] > 0.0f ? lobe : 0.0f;
 }
 
-// EON's reflection of light from wo, but for albedo: a cosine lobe, cut at the horizon and sent
-// through a matrix, and a share of all directions alike.  Portsmouth, Kutz & Hill 2025, section 5,
-// fitted for roughness and cosine in [0, 1].
+// EON's lobe about wo, for any albedo: a cosine, cut at the horizon and sent through a matrix, and a
+// share of all directions alike.  Portsmouth, Kutz & Hill 2025, whose listings have the fit;
+// roughness in [0, 1].
 STRUCT(sampling_eon_lobe) {
     real a; // the matrix (a 0 b, 0 c 0, d 0 1), its x axis below wo
     real b;
