@@ -601,14 +601,21 @@ static inline real light_hit_tube(vec3 c, vec3 axis, real radius, vec3 wi)
 
 // ---- triangles ----------------------------------------------------------------------------------
 
+// Of samples uniform over an area; `towards` = twice the area times the cosine.
+static inline real light_area_density(real distance, real towards)
+{
+    real size = max(max(towards, -towards), LIGHT_LEAST);
+    return min(2.0f * distance * distance / size, LIGHT_FAR);
+}
+
 // Uniform over the area.
 static inline light_sample light_sample_triangle(vec3 a, vec3 b, vec3 c, vec2 u)
 {
     real r = sqrt(u[0]);
     vec3 to = (1.0f - r) * a + r * (1.0f - u[1]) * b + r * u[1] * c;
     light_sample s = light_sample_at(to, 0.0f);
-    real towards = dot(cross(b - a, c - a), s.direction); // 2 area cos
-    s.density = 2.0f * s.distance * s.distance / max(max(towards, -towards), LIGHT_LEAST);
+    real towards = dot(cross(b - a, c - a), s.direction);
+    s.density = light_area_density(s.distance, towards);
     return s;
 }
 
@@ -617,9 +624,7 @@ static inline real light_density_triangle(vec3 a, vec3 b, vec3 c, vec3 wi)
 {
     vec3 n = cross(b - a, c - a);
     real towards = dot(n, wi);
-    real size = max(max(towards, -towards), LIGHT_LEAST);
-    real distance = dot(n, a) / size;
-    return 2.0f * distance * distance / size;
+    return light_area_density(dot(n, a) / max(max(towards, -towards), LIGHT_LEAST), towards);
 }
 
 #endif
