@@ -15,7 +15,7 @@ typedef struct chi_chart {
     void (*sample)(const void *of, const double u[2], double place[2]);
 } chi_chart;
 
-enum { CHI_ROWS = 12, CHI_CELLS = CHI_ROWS * CHI_ROWS, CHI_DEPTH = 5 };
+enum { CHI_ROWS = 12, CHI_CELLS = CHI_ROWS * CHI_ROWS, CHI_DEPTH = 6 };
 
 // Deterministic, uniform in [0, 1), of 24 bits.
 static inline double chi_next(uint64_t *state)
@@ -48,7 +48,7 @@ static inline double chi_piece(const chi_chart *chart, double s, double t, doubl
     double part[4], sum = 0, half = size / 2;
     for (int i = 0; i < 4; i++)
         sum += part[i] = chi_gauss(chart, s + i / 2 * half, t + i % 2 * half, half);
-    bool small = fabs(sum - whole) < 1e-5;
+    bool small = fabs(sum - whole) < 3e-6;
     if ((small && calm) || depth == 0)
         return sum;
     sum = 0;

@@ -101,7 +101,7 @@ static void lobes_have_the_density_they_claim(void **state)
     double least = 1 - pow(1 - 1e-3, 1.0 / count); // Sidak
     for (int i = 0; i < count; i++) {
         chi_chart chart = { &all[i], chart_density, chart_sample };
-        double total, chance = chi_squared(&chart, 60000, 17 + (uint64_t)i, &total);
+        double total, chance = chi_squared(&chart, 100000, 17 + (uint64_t)i, &total);
 
         if (!(chance > least && total < 1.002 && (!is_diffuse(&all[i]) || total > 0.998)))
             print_error("lobe %d of %d: chance %g, total %g\n", i, all[i].kind, chance, total);
