@@ -124,7 +124,7 @@ static inline real sampling_blinn_density(vec3 wo, vec3 wi, real shininess)
     return wi[2] > 0.0f ? lobe : 0.0f;
 }
 
-// EON's lobe about wo, for any albedo: a cosine, cut at the horizon and sent through a matrix, and a
+// EON's lobe, for any albedo: a cosine, cut at the horizon and sent through a matrix, and a
 // share of all directions alike.  Portsmouth, Kutz & Hill 2025, whose listings have the fit;
 // roughness in [0, 1].
 STRUCT(sampling_eon_lobe) {

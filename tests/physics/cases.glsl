@@ -12,6 +12,7 @@
 #include "physics/light_ltc.glsl"
 #include "physics/light_punctual.glsl"
 #include "physics/light_representative.glsl"
+#include "physics/light_sampling.glsl"
 #include "physics/microfacet.glsl"
 #include "physics/sampling.glsl"
 #include "physics/sh.glsl"
@@ -19,7 +20,7 @@
 #include "physics/surface.glsl"
 #include "physics/tonemap.glsl"
 
-#define CASE_COUNT 50u
+#define CASE_COUNT 62u
 
 // A vector's components told apart.
 static inline real case_mark(vec3 v)
@@ -79,6 +80,30 @@ static inline real case_area_light(uint shape, vec4 u, vec3 v)
     else
         result = light_representative_cap(cap, v, 0.2f + 0.8f * u[0]);
     return result[0] + 2.0f * result[1];
+}
+
+// A sample of a light of each shape: its direction (`what` = 0), distance (1) and
+// the inverse of its density (2).
+static inline real case_light_sample(uint shape, uint what, vec4 u)
+{
+    vec3 to = 1.5f * case_direction(u[3], u[2]);
+    vec3 x = vec3(0.5f, 0.1f, 0.2f);
+    vec3 y = vec3(-0.1f, 0.5f, 0.0f);
+    vec2 at = vec2(0.1f + 0.8f * u[0], 0.1f + 0.8f * u[1]);
+    light_sample s = light_sample_sphere(to, 0.5f, at);
+    if (shape == 1u)
+        s = light_sample_rect(to, x, y, at);
+    else if (shape == 2u)
+        s = light_sample_disk(to, x, y, at);
+    else if (shape == 3u)
+        s = light_sample_tube(to, x, 0.2f, at);
+    else if (shape == 4u)
+        s = light_sample_triangle(to, to + x, to + y, at);
+    else if (shape == 5u)
+        s = light_sample_sun(to / 1.5f, 0.6f, 0.8f, at);
+    if (what == 2u)
+        return 1.0f / max(s.density, 0.1f);
+    return what == 0u ? case_mark(s.direction) : s.distance;
 }
 
 // `id` below CASE_COUNT; the components of u lie in [0, 1).
@@ -148,6 +173,18 @@ static inline real physics_case(uint id, vec4 u)
     case 47u: return case_area_light(1u, u, wo);
     case 48u: return case_area_light(2u, u, wo);
     case 49u: return case_area_light(3u, u, wo);
+    case 50u: return case_mark(sampling_ggx(wo, alpha, 0.5f * alpha, vec2(u[2], 0.9f * u[3])));
+    case 51u: return sampling_ggx_density(wo, wi, alpha, 0.5f * alpha);
+    case 52u: return case_mark(sampling_blinn(wo, 1.0f + 50.0f * u[3], vec2(u[2], u[3])));
+    case 53u: return sampling_blinn_density(wo, wi, 1.0f + 50.0f * alpha);
+    case 54u: return case_mark(sampling_eon(wo, alpha, vec2(0.2f + 0.7f * u[2], u[3])));
+    case 55u: return sampling_eon_density(wo, wi, alpha);
+    case 56u: return case_light_sample(0u, 0u, u) + case_light_sample(0u, 1u, u);
+    case 57u: return case_light_sample(1u, 0u, u) + case_light_sample(1u, 2u, u);
+    case 58u: return case_light_sample(2u, 1u, u) + case_light_sample(2u, 2u, u);
+    case 59u: return case_light_sample(3u, 1u, u) + case_light_sample(3u, 2u, u);
+    case 60u: return case_light_sample(4u, 1u, u) + case_light_sample(4u, 2u, u);
+    case 61u: return case_light_sample(5u, 0u, u);
     }
     return 0.0f;
 }
