@@ -86,7 +86,7 @@ static inline real case_area_light(uint shape, vec4 u, vec3 v)
 // the inverse of its density (2).
 static inline real case_light_sample(uint shape, uint what, vec4 u)
 {
-    vec3 to = 1.5f * case_direction(u[3], u[2]);
+    vec3 to = 1.5f * case_direction(0.6f + 0.4f * u[3], u[2]);
     vec3 x = vec3(0.5f, 0.1f, 0.2f);
     vec3 y = vec3(-0.1f, 0.5f, 0.0f);
     vec2 at = vec2(0.1f + 0.8f * u[0], 0.1f + 0.8f * u[1]);
