@@ -39,26 +39,24 @@ typedef struct watch {
     double fraction, end_ms; // how far it last said it was, and when it will end therefore
 } watch;
 
-static void say_time(char text[32], double seconds)
+static void say_left(char text[32], double seconds)
 {
     int whole = seconds < 0 ? 0 : seconds < 359999 ? (int)(seconds + 0.5) : 359999;
     if (whole < 3600)
-        snprintf(text, 32, "%d:%02d left", whole / 60, whole % 60);
+        snprintf(text, 32, ", %d:%02d left", whole / 60, whole % 60);
     else
-        snprintf(text, 32, "%d:%02d h left", whole / 3600, whole / 60 % 60);
+        snprintf(text, 32, ", %d:%02d h left", whole / 3600, whole / 60 % 60);
 }
 
 static void show(const watch *w, double now)
 {
     ag_reference_state state = ag_reference_describe(w->reference);
-    char detail[80], left[32] = "";
-    if (w->fraction > 0)
-        say_time(left, (w->end_ms - now) / 1e3);
-    if (state.samples > 1)
-        snprintf(detail, sizeof detail, "%u spp, %.2g %% noise, %s", state.samples,
-                 (double)state.noise * 100, left);
-    else
-        snprintf(detail, sizeof detail, "%u spp", state.samples);
+    char detail[80], noise[32] = "", left[32] = "";
+    if (state.samples > 1) // else it is not known
+        snprintf(noise, sizeof noise, ", %.2g %% noise", (double)state.noise * 100);
+    if (w->fraction > 0.01)
+        say_left(left, (w->end_ms - now) / 1e3);
+    snprintf(detail, sizeof detail, "%u spp%s%s", state.samples, noise, left);
     console_stage_detail(w->console, "trace", w->fraction, detail);
 }
 
