@@ -4,26 +4,9 @@
 #include "trace/emitters.h"
 
 #include "base/log.h"
+#include "base/threads.h"
 
 #include <stdlib.h>
-
-typedef struct triangle {
-    vec3 a, b, c;
-} triangle;
-
-static triangle triangle_of(const world_instance *i, uint32_t index)
-{
-    const uint32_t *at = i->mesh->indices + 3 * (size_t)index;
-    const scene_vertex *v = i->mesh->vertices;
-    return (triangle) { world_point(i, v[at[0]].position), world_point(i, v[at[1]].position),
-                        world_point(i, v[at[2]].position) };
-}
-
-// Twice the area, along the front.
-static vec3 area_of(const world_instance *i, const triangle *t)
-{
-    return i->flip * cross(t->b - t->a, t->c - t->a);
-}
 
 static bool shines(const world_instance *i)
 {
@@ -31,89 +14,198 @@ static bool shines(const world_instance *i)
     return !i->material->unlit && (e[0] > 0 || e[1] > 0 || e[2] > 0);
 }
 
-// The texture's mean over a triangle by a few places, and a little for what they miss.
-static float brightness(const world *w, const world_instance *i, uint32_t index)
+static emitter emitter_of(const world *w, uint32_t instance, uint32_t index)
 {
-    static const float places[7][2] = { { 1 / 3.f, 1 / 3.f }, { .6f, .2f },  { .2f, .6f },
-                                        { .2f, .2f },         { .1f, .45f }, { .45f, .1f },
-                                        { .45f, .45f } };
-    const float *e = i->material->emissive;
-    const texture_use *map = &i->textures->emissive;
-    float factor = max(e[0], max(e[1], e[2])), sum = 0;
-    if (!map->pixels)
-        return factor;
+    const world_instance *i = &w->instances[instance];
     const uint32_t *at = i->mesh->indices + 3 * (size_t)index;
-    for (int k = 0; k < 7; k++) {
-        const float weight[3] = { 1 - places[k][0] - places[k][1], places[k][0], places[k][1] };
-        vec2 uv[2] = { { 0, 0 }, { 0, 0 } };
-        for (int set = 0; set < 2; set++)
-            for (int c = 0; c < 3; c++) {
-                const float *of = i->mesh->vertices[at[c]].uv[set];
-                uv[set] += weight[c] * vec2(of[0], of[1]);
+    const scene_vertex *v = i->mesh->vertices;
+    emitter e = { .a = world_point(i, v[at[0]].position),
+                  .b = world_point(i, v[at[1]].position),
+                  .c = world_point(i, v[at[2]].position),
+                  .instance = instance,
+                  .triangle = index };
+    e.area = i->flip * cross(e.b - e.a, e.c - e.a);
+    return e;
+}
+
+// ---- How bright ------------------------------------------------------------------
+
+// An emissive texture in blocks: the mean of each, 0 only where all of it is dark.
+enum { BLOCK = 16 }; // texels
+typedef struct blocks {
+    const texture_use *map;
+    const float *decode;
+    int columns, rows;
+    float *mean; // [rows][columns]; NULL: no texture
+} blocks;
+
+static void fill_blocks(void *context, size_t row)
+{
+    const blocks *b = context;
+    int top = (int)row * BLOCK, bottom = top + BLOCK;
+    bottom = bottom < b->map->height ? bottom : b->map->height;
+    for (int column = 0; column < b->columns; column++) {
+        int left = column * BLOCK, right = left + BLOCK;
+        right = right < b->map->width ? right : b->map->width;
+        float sum = 0;
+        for (int y = top; y < bottom; y++)
+            for (int x = left; x < right; x++) {
+                const uint8_t *p =
+                    b->map->pixels + 4 * ((size_t)y * (size_t)b->map->width + (size_t)x);
+                uint8_t most = p[0] > p[1] ? p[0] : p[1];
+                sum += b->decode[most > p[2] ? most : p[2]];
             }
-        vec4 texel = texture_read_color(map, uv, w->decode);
-        sum += max(texel[0], max(texel[1], texel[2])) / 7;
+        b->mean[row * (size_t)b->columns + (size_t)column] =
+            sum / (float)((bottom - top) * (right - left));
     }
-    return factor * (sum + 0.01f);
 }
 
-static size_t count_all(const world *w)
+static bool blocks_init(const world *w, const texture_use *map, blocks *b)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < w->instance_count; i++)
-        if (shines(&w->instances[i]))
-            count += w->instances[i].mesh->index_count / 3;
-    return count;
+    *b = (blocks) { .map = map, .decode = w->decode };
+    if (!map->pixels)
+        return true;
+    b->columns = (map->width + BLOCK - 1) / BLOCK;
+    b->rows = (map->height + BLOCK - 1) / BLOCK;
+    b->mean = malloc((size_t)b->columns * (size_t)b->rows * sizeof *b->mean);
+    if (b->mean)
+        parallel_for((size_t)b->rows, fill_blocks, b);
+    return b->mean != NULL;
 }
 
-static void add_instance(emitters *e, size_t index, double *total)
+// Blocks that coordinates between two may touch, a texel to either side; all where they repeat.
+static void range_of(float low, float high, int size, int count, uint8_t wrap, int range[2])
 {
-    const world_instance *i = &e->world->instances[index];
-    e->first[index] = (uint32_t)e->count;
-    for (uint32_t t = 0; t < i->mesh->index_count / 3; t++) {
-        triangle corners = triangle_of(i, t);
-        vec3 area = area_of(i, &corners);
-        float size = sqrtf(dot(area, area));
-        if (isfinite(size))
-            *total += (double)(size * brightness(e->world, i, t));
-        e->instance[e->count] = (uint32_t)index;
-        e->triangle[e->count] = t;
-        e->sums[++e->count] = (float)*total;
+    float from = floorf((low * (float)size - 1.5f) / BLOCK);
+    float to = floorf((high * (float)size + 1.5f) / BLOCK);
+    range[0] = 0;
+    range[1] = count - 1;
+    if (from >= 0 && to < (float)count) {
+        range[0] = (int)from;
+        range[1] = (int)to;
+    } else if (wrap == AG_WRAP_CLAMP) {
+        range[0] = (int)clamp(from, 0.0f, (float)(count - 1));
+        range[1] = (int)clamp(to, 0.0f, (float)(count - 1));
     }
+}
+
+// The mean under a triangle, by the blocks that its box touches.
+static float brightness(const blocks *b, const scene_mesh *mesh, uint32_t index)
+{
+    if (!b->mean)
+        return 1;
+    const uint32_t *at = mesh->indices + 3 * (size_t)index;
+    vec2 low = { INFINITY, INFINITY }, high = -low;
+    for (int c = 0; c < 3; c++) {
+        const float *from = mesh->vertices[at[c]].uv[b->map->uv_set];
+        const float *u = b->map->u, *v = b->map->v;
+        const float place[2] = { u[0] * from[0] + u[1] * from[1] + u[2],
+                                 v[0] * from[0] + v[1] * from[1] + v[2] };
+        for (int i = 0; i < 2; i++) {
+            low[i] = min(low[i], place[i]);
+            high[i] = max(high[i], place[i]);
+        }
+    }
+    int x[2], y[2];
+    range_of(low[0], high[0], b->map->width, b->columns, b->map->wrap_u, x);
+    range_of(low[1], high[1], b->map->height, b->rows, b->map->wrap_v, y);
+    float sum = 0;
+    for (int row = y[0]; row <= y[1]; row++)
+        for (int column = x[0]; column <= x[1]; column++)
+            sum += b->mean[(size_t)row * (size_t)b->columns + (size_t)column];
+    return sum / (float)((x[1] - x[0] + 1) * (y[1] - y[0] + 1));
+}
+
+// ---- The list --------------------------------------------------------------------
+
+static ag_status no_memory(const world *w)
+{
+    return log_fail(&w->log, AG_ERROR_MEMORY, "no memory for the triangles that shine");
+}
+
+typedef struct listing {
+    size_t capacity;
+    double total;
+    blocks blocks; // of the instance that is listed
+} listing;
+
+static ag_status add_triangle(emitters *e, listing *l, uint32_t instance, uint32_t index)
+{
+    const world_instance *i = &e->world->instances[instance];
+    emitter made = emitter_of(e->world, instance, index);
+    float size = sqrtf(dot(made.area, made.area));
+    const float *factor = i->material->emissive;
+    float power = isfinite(size) ? size * max(factor[0], max(factor[1], factor[2])) : 0;
+    if (power > 0)
+        power *= brightness(&l->blocks, i->mesh, index);
+    if (!(power > 0))
+        return AG_OK;
+    if (e->count == l->capacity) {
+        size_t capacity = l->capacity ? 2 * l->capacity : 64;
+        emitter *grown = aligned_alloc(_Alignof(emitter), capacity * sizeof *grown);
+        float *sums = realloc(e->sums, (capacity + 1) * sizeof *sums);
+        e->sums = sums ? sums : e->sums;
+        if (!grown || !sums) {
+            free(grown);
+            return no_memory(e->world);
+        }
+        if (e->count)
+            memcpy(grown, e->all, e->count * sizeof *grown);
+        free(e->all);
+        e->all = grown;
+        l->capacity = capacity;
+    }
+    e->sums[0] = 0;
+    e->where[instance][index] = (uint32_t)e->count;
+    e->all[e->count++] = made;
+    l->total += (double)power;
+    e->sums[e->count] = (float)l->total;
+    return AG_OK;
+}
+
+static ag_status add_instance(emitters *e, listing *l, uint32_t instance)
+{
+    uint32_t triangles = e->world->instances[instance].mesh->index_count / 3;
+    e->where[instance] = malloc(triangles * sizeof(uint32_t));
+    if (!e->where[instance])
+        return no_memory(e->world);
+    memset(e->where[instance], 0xff, triangles * sizeof(uint32_t));
+    if (!blocks_init(e->world, &e->world->instances[instance].textures->emissive, &l->blocks))
+        return no_memory(e->world);
+    ag_status status = AG_OK;
+    for (uint32_t t = 0; t < triangles && !status; t++)
+        status = add_triangle(e, l, instance, t);
+    free(l->blocks.mean);
+    return status;
 }
 
 ag_status emitters_init(const world *w, emitters *e)
 {
     *e = (emitters) { .world = w };
-    size_t count = count_all(w);
-    if (!count)
-        return AG_OK;
-    e->instance = malloc(count * sizeof *e->instance);
-    e->triangle = malloc(count * sizeof *e->triangle);
-    e->sums = malloc((count + 1) * sizeof *e->sums);
-    e->first = malloc(w->instance_count * sizeof *e->first);
-    if (!e->instance || !e->triangle || !e->sums || !e->first || count > UINT32_MAX) {
-        emitters_finish(e);
-        return log_fail(&w->log, AG_ERROR_MEMORY, "no memory for %zu triangles that shine", count);
-    }
-    double total = 0;
-    e->sums[0] = 0;
-    for (size_t i = 0; i < w->instance_count; i++) {
-        e->first[i] = UINT32_MAX;
+    e->where = calloc(w->instance_count + 1, sizeof *e->where);
+    if (!e->where)
+        return no_memory(w);
+    listing l = { 0 };
+    ag_status status = AG_OK;
+    for (size_t i = 0; i < w->instance_count && !status; i++)
         if (shines(&w->instances[i]))
-            add_instance(e, i, &total);
-    }
-    return AG_OK;
+            status = add_instance(e, &l, (uint32_t)i);
+    if (status)
+        emitters_finish(e);
+    return status;
 }
 
 void emitters_finish(emitters *e)
 {
-    free(e->instance);
-    free(e->triangle);
+    for (size_t i = 0; e->where && i < e->world->instance_count; i++)
+        free(e->where[i]);
+    free(e->where);
+    free(e->all);
     free(e->sums);
-    free(e->first);
     *e = (emitters) { 0 };
 }
+
+// ---- Drawing ---------------------------------------------------------------------
 
 static size_t find(const float *sums, size_t count, float x)
 {
@@ -128,56 +220,50 @@ static size_t find(const float *sums, size_t count, float x)
     return low;
 }
 
-// Per solid angle, of a place that was drawn by area: `area` twice the triangle's, along its front.
-static float density_of(const emitters *e, size_t index, vec3 area, vec3 direction, float distance)
+// Per solid angle, of a place that was drawn by area.
+static float density_of(const emitters *e, size_t index, vec3 direction, float distance)
 {
     float chance = (e->sums[index + 1] - e->sums[index]) / e->sums[e->count];
-    float seen = 0.5f * fabsf(dot(area, direction)); // area times cosine
+    float seen = 0.5f * fabsf(dot(e->all[index].area, direction)); // area times cosine
     return seen > 0 ? chance * distance * distance / seen : 0;
+}
+
+// Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
+static vec2 triangle_point(vec2 u)
+{
+    float s = u[0], v = u[1];
+    return v > s ? vec2(0.5f * s, v - 0.5f * s) : vec2(s - 0.5f * v, 0.5f * v);
 }
 
 bool emitters_sample(const emitters *e, vec3 from, float pick, vec2 u, emitter_found *found)
 {
-    if (!e->count || !(e->sums[e->count] > 0))
+    if (!e->count)
         return false;
     size_t index = find(e->sums, e->count, pick * e->sums[e->count]);
-    const world_instance *i = &e->world->instances[e->instance[index]];
-    triangle t = triangle_of(i, e->triangle[index]);
-    // Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
-    float s = u[0], v = u[1];
-    if (v > s) {
-        s *= 0.5f;
-        v -= s;
-    } else {
-        v *= 0.5f;
-        s -= v;
-    }
-    vec3 area = area_of(i, &t), to = (1 - s - v) * t.a + s * t.b + v * t.c - from;
+    const emitter *t = &e->all[index];
+    vec2 at = triangle_point(u);
+    vec3 to = (1 - at[0] - at[1]) * t->a + at[0] * t->b + at[1] * t->c - from;
     float distance = sqrtf(dot(to, to));
     if (!(distance > 0))
         return false;
-    vec3 direction = to / distance;
     *found = (emitter_found) {
-        .direction = direction,
+        .direction = to / distance,
         .distance = distance,
-        .density = density_of(e, index, area, direction, distance),
-        .at = { .instance = i,
-                .triangle = e->triangle[index],
+        .density = density_of(e, index, to / distance, distance),
+        .at = { .instance = &e->world->instances[t->instance],
+                .triangle = t->triangle,
                 .distance = distance,
-                .u = s,
-                .v = v,
-                .normal = area },
+                .u = at[0],
+                .v = at[1],
+                .normal = t->area },
     };
     return found->density > 0;
 }
 
 float emitters_density(const emitters *e, const hit *h, vec3 direction)
 {
-    if (!e->count)
+    const uint32_t *where = e->where[h->instance - e->world->instances];
+    if (!where || where[h->triangle] == UINT32_MAX)
         return 0;
-    uint32_t first = e->first[h->instance - e->world->instances];
-    if (first == UINT32_MAX)
-        return 0;
-    triangle t = triangle_of(h->instance, h->triangle);
-    return density_of(e, first + h->triangle, area_of(h->instance, &t), direction, h->distance);
+    return density_of(e, where[h->triangle], direction, h->distance);
 }

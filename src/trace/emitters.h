@@ -4,13 +4,18 @@
 
 #include "trace/world.h"
 
-// Where the triangles of an instance stand in the list.
+typedef struct emitter {
+    vec3 a, b, c; // corners, world space
+    vec3 area;    // twice its area, along its front
+    uint32_t instance, triangle;
+} emitter;
+
 typedef struct emitters {
     const world *world;
     size_t count;
-    uint32_t *instance, *triangle; // [count]
-    float *sums;                   // [count + 1], running, of power
-    uint32_t *first;               // [instances]: of its triangles; UINT32_MAX: it does not shine
+    emitter *all;     // those on which something shines, instance by instance
+    float *sums;      // [count + 1], running, of power
+    uint32_t **where; // [instances][triangles]: in `all`, UINT32_MAX: it is dark; NULL: all are
 } emitters;
 
 AG_CHECK ag_status emitters_init(const world *w, emitters *e);
