@@ -1,4 +1,5 @@
-// One path of light, followed from the eye.
+// Paths of light, followed from the eye, a bundle at a time: each step is taken for all of them
+// before the next, so that its code and what it reads stay near the processor.
 //
 // At each surface light is looked for in directions that are drawn by the lights, and in one
 // drawn by the surface, along which the path goes on; where both may find the same light each is
@@ -15,6 +16,15 @@ static const float BRIGHTEST = 60000;
 // Surfaces before Russian roulette.
 enum { CERTAIN = 3 };
 
+// Light that arrives if nothing stands in its way.
+typedef struct pending {
+    vec3 direction, light;
+    float distance;
+    uint32_t dice;
+} pending;
+
+enum { PENDING = 3 }; // by the sky, a light and an emitter
+
 typedef struct path {
     const path_scene *scene;
     sampler dice;
@@ -23,6 +33,15 @@ typedef struct path {
                     // for
     uint32_t scattered; // how many surfaces have sent on the light that is added now
     path_result result;
+    hit hit;
+    place place;
+    bsdf bsdf;
+    lit_place lit;
+    float lights; // lights_weight() of the place
+    pending pending[PENDING];
+    uint32_t pending_count;
+    vec3 direction; // it goes on in, and its density
+    float density;
 } path;
 
 static bool wants(const path *p, uint32_t parts)
@@ -85,30 +104,32 @@ static float weight_of_surface(const path *p, float a, float b)
 
 // ---- Rays --------------------------------------------------------------------------
 
-static bool is_open(path *p, vec3 from, vec3 direction, float distance)
+static uint32_t roll(const path *p)
 {
-    if (p->scene->options.unshadowed)
-        return true;
-    const ray r = {
-        .origin = from,
-        .direction = direction,
-        .far = distance,
-        .dice = sampler_mix(p->dice.seed, sampler_mix(p->dice.index, p->dice.drawn)),
-    };
-    p->result.rays++;
-    return !world_blocked(&p->scene->world, &r);
+    return sampler_mix(p->dice.seed, sampler_mix(p->dice.index, p->dice.drawn));
 }
 
-static bool find(path *p, vec3 from, vec3 direction, hit *h)
+// Light that the place sends on if `direction` is open.
+static void await(path *p, vec3 direction, float distance, vec3 light)
 {
-    const ray r = {
-        .origin = from,
-        .direction = direction,
-        .far = INFINITY,
-        .dice = sampler_mix(p->dice.seed, sampler_mix(p->dice.index, p->dice.drawn)),
-    };
-    p->result.rays++;
-    return world_closest(&p->scene->world, &r, h);
+    if (p->scene->options.unshadowed)
+        add(p, light);
+    else
+        p->pending[p->pending_count++] = (pending) { direction, light, distance, roll(p) };
+}
+
+static void settle(path *p)
+{
+    for (uint32_t i = 0; i < p->pending_count; i++) {
+        const ray r = { .origin = p->lit.position,
+                        .direction = p->pending[i].direction,
+                        .far = p->pending[i].distance,
+                        .dice = p->pending[i].dice };
+        p->result.rays++;
+        if (!world_blocked(&p->scene->world, &r))
+            add(p, p->pending[i].light);
+    }
+    p->pending_count = 0;
 }
 
 // ---- Light from directions that lights chose -----------------------------------------
@@ -123,54 +144,59 @@ static vec3 sky_part(const path *p, const surface_parts *f)
            (wants(p, AG_PART_SPECULAR) ? f->lobe : none);
 }
 
-static void light_by_sky(path *p, const bsdf *b, vec3 from)
+static float greatest(vec3 v)
+{
+    return max(v[0], max(v[1], v[2]));
+}
+
+static void light_by_sky(path *p)
 {
     vec2 u = sampler_pair(&p->dice);
     if (p->scene->options.estimator == AG_ESTIMATOR_SURFACE)
         return;
     sky_look sky = sky_sample(&p->scene->sky, u);
-    if (!(sky.density > 0) || dot(sky.direction, b->frame.n) <= 0)
+    if (!(sky.density > 0) || dot(sky.direction, p->lit.normal) <= 0)
         return;
-    scattered s = bsdf_evaluate(b, sky.direction);
+    scattered s = bsdf_evaluate(&p->bsdf, sky.direction);
     vec3 f = sky_part(p, &s.f);
-    if (max(f[0], max(f[1], f[2])) > 0 && is_open(p, from, sky.direction, INFINITY))
-        add(p, p->throughput * f * sky.radiance *
-                   (weight_of_light(p, sky.density, s.density) / sky.density));
+    float weight = weight_of_light(p, sky.density, s.density) / sky.density;
+    if (greatest(f) > 0)
+        await(p, sky.direction, INFINITY, p->throughput * f * sky.radiance * weight);
 }
 
-static void light_by_lights(path *p, const bsdf *b, const lit_place *at, float total)
+static void light_by_lights(path *p)
 {
     float pick = sampler_number(&p->dice);
     vec2 u = sampler_pair(&p->dice);
     light_found found;
-    if (!lights_sample(&p->scene->lights, at, total, pick, u, &found))
+    if (!lights_sample(&p->scene->lights, &p->lit, p->lights, pick, u, &found))
         return;
-    scattered s = bsdf_evaluate(b, found.direction);
+    scattered s = bsdf_evaluate(&p->bsdf, found.direction);
     float weight = found.density > 0 ? weight_of_light(p, found.density, s.density) : 1;
     vec3 f = (s.f.base + s.f.lobe) * weight;
-    if (max(f[0], max(f[1], f[2])) > 0 && is_open(p, at->position, found.direction, found.distance))
-        add(p, p->throughput * f * found.radiance);
+    if (greatest(f) > 0)
+        await(p, found.direction, found.distance, p->throughput * f * found.radiance);
 }
 
-static void light_by_emitters(path *p, const bsdf *b, vec3 from)
+static void light_by_emitters(path *p)
 {
     float pick = sampler_number(&p->dice);
     vec2 u = sampler_pair(&p->dice);
     emitter_found found;
-    if (!emitters_sample(&p->scene->emitters, from, pick, u, &found))
+    if (!emitters_sample(&p->scene->emitters, p->lit.position, pick, u, &found))
         return;
-    scattered s = bsdf_evaluate(b, found.direction);
+    scattered s = bsdf_evaluate(&p->bsdf, found.direction);
     vec3 f = s.f.base + s.f.lobe;
-    if (!(max(f[0], max(f[1], f[2])) > 0))
+    if (!(greatest(f) > 0))
         return;
     const world *w = &p->scene->world;
     const hit *on = &found.at;
     vec3 light = place_emission(w, on, -found.direction) *
                  world_opacity(w, on->instance, on->triangle, on->u, on->v);
     float weight = p->scene->options.unshadowed ? 1 : weight_of_light(p, found.density, s.density);
-    if (max(light[0], max(light[1], light[2])) > 0 && weight > 0 &&
-        is_open(p, from, found.direction, found.distance * 0.9999f))
-        add(p, p->throughput * f * light * (weight / found.density));
+    if (greatest(light) > 0 && weight > 0)
+        await(p, found.direction, found.distance * 0.9999f,
+              p->throughput * f * light * (weight / found.density));
 }
 
 static bool wants_sky(const path *p)
@@ -185,63 +211,84 @@ static bool wants_emitters(const path *p)
 
 // ---- Light on the way --------------------------------------------------------------
 
-// Bodies along a ray whose direction the surface drew with `density`.
-typedef struct meeting {
-    path *path;
-    float density;
-} meeting;
-
 static void meet_body(void *context, vec3 radiance, float density)
 {
-    meeting *m = context;
-    path *p = m->path;
-    add(p, p->throughput * radiance * weight_of_surface(p, m->density, density));
+    path *p = context;
+    add(p, p->throughput * radiance * weight_of_surface(p, p->density, density));
 }
 
-static void add_sky(path *p, vec3 direction, float density)
+static void add_sky(path *p)
 {
-    sky_look sky = sky_at(&p->scene->sky, direction);
-    float weight = weight_of_surface(p, density, sky.density);
+    sky_look sky = sky_at(&p->scene->sky, p->direction);
+    float weight = weight_of_surface(p, p->density, sky.density);
     if (weight > 0)
         add(p, p->throughput * p->sky_share * sky.radiance * weight);
 }
 
-static void add_emission(path *p, const hit *h, vec3 direction, float density)
+static void add_emission(path *p, vec3 light)
 {
-    if (p->scene->options.unshadowed)
-        return;
-    vec3 light = place_emission(&p->scene->world, h, -direction);
-    if (max(light[0], max(light[1], light[2])) > 0)
-        add(p,
-            p->throughput * light *
-                weight_of_surface(p, density, emitters_density(&p->scene->emitters, h, direction)));
+    if (!p->scene->options.unshadowed && wants(p, AG_PART_EMITTED) && greatest(light) > 0) {
+        float density = emitters_density(&p->scene->emitters, &p->hit, p->direction);
+        add(p, p->throughput * light * weight_of_surface(p, p->density, density));
+    }
 }
 
-// ---- Surfaces ----------------------------------------------------------------------
+// ---- Steps: from a place ---------------------------------------------------------------
+//
+// Each says whether the path goes on.
 
-// Light that lights send to a place, and it towards where the path came from.
-static void light_place(path *p, const bsdf *b, const lit_place *at, float total)
+static bool take_surface(path *p)
 {
+    vec3 wo = -p->direction;
+    p->bsdf = bsdf_at(&p->scene->albedo, &p->place, wo);
+    if (p->scattered == 0)
+        p->result.albedo = surface_albedo(p->bsdf.s) + p->bsdf.s.single;
+    p->lit = (lit_place) { p->place.origin, p->place.normal };
+    p->lights = wants(p, AG_PART_LIGHTS) ? lights_weight(&p->scene->lights, &p->lit) : 0;
     p->scattered++;
-    if (wants_sky(p))
-        light_by_sky(p, b, at->position);
-    if (total > 0)
-        light_by_lights(p, b, at, total);
-    if (p->scene->lights.ambient_present && wants(p, AG_PART_LIGHTS))
-        add(p,
-            p->throughput * surface_albedo(b->s) * lights_ambient(&p->scene->lights, b->frame.n));
-    if (wants_emitters(p))
-        light_by_emitters(p, b, at->position);
+    return true;
 }
 
-// A direction to go on in; false where the path ends.
-static bool scatter(path *p, const bsdf *b, vec3 *direction, float *density)
+static bool ask_lights(path *p)
+{
+    const trace_lights *lights = &p->scene->lights;
+    if (wants_sky(p))
+        light_by_sky(p);
+    if (p->lights > 0)
+        light_by_lights(p);
+    if (lights->ambient_present && wants(p, AG_PART_LIGHTS))
+        add(p, p->throughput * surface_albedo(p->bsdf.s) * lights_ambient(lights, p->lit.normal));
+    if (wants_emitters(p))
+        light_by_emitters(p);
+    return true;
+}
+
+static bool settle_lights(path *p)
+{
+    settle(p);
+    return true;
+}
+
+static bool survives(path *p)
+{
+    float dice = sampler_number(&p->dice);
+    if (p->scattered < CERTAIN)
+        return true;
+    float chance = min(greatest(p->throughput), 0.95f);
+    if (dice >= chance)
+        return false;
+    p->throughput = p->throughput / chance;
+    return true;
+}
+
+// A direction to go on in.
+static bool scatter(path *p)
 {
     float pick = sampler_number(&p->dice);
     vec2 u = sampler_pair(&p->dice);
-    if (!bsdf_sample(b, pick, u, direction))
+    if (!bsdf_sample(&p->bsdf, pick, u, &p->direction))
         return false;
-    scattered s = bsdf_evaluate(b, *direction);
+    scattered s = bsdf_evaluate(&p->bsdf, p->direction);
     if (!(s.density > 0))
         return false;
     vec3 f = s.f.base + s.f.lobe;
@@ -251,21 +298,8 @@ static bool scatter(path *p, const bsdf *b, vec3 *direction, float *density)
             p->sky_share[i] = f[i] > 0 ? part[i] / f[i] : 0;
     }
     p->throughput = p->throughput * f / s.density;
-    *density = s.density;
-    return max(p->throughput[0], max(p->throughput[1], p->throughput[2])) > 0;
-}
-
-static bool survives(path *p)
-{
-    float dice = sampler_number(&p->dice);
-    if (p->scattered < CERTAIN)
-        return true;
-    vec3 t = p->throughput;
-    float chance = min(max(t[0], max(t[1], t[2])), 0.95f);
-    if (dice >= chance)
-        return false;
-    p->throughput = t / chance;
-    return true;
+    p->density = s.density;
+    return greatest(p->throughput) > 0 && survives(p);
 }
 
 static bool is_last(const path *p)
@@ -274,52 +308,39 @@ static bool is_last(const path *p)
     return o->direct_only || (o->max_bounces && p->scattered > o->max_bounces);
 }
 
-// On from a surface in a direction drawn with `density`: the light that is met, and the next
-// surface.  False: there is none, or it is not asked for.
-static bool go_on(path *p, const lit_place *at, float total, vec3 direction, float density, hit *h)
+// To the next surface, and the light that is met before.
+static bool go_on(path *p)
 {
-    bool unshadowed = p->scene->options.unshadowed, met = false;
-    if (!unshadowed)
-        met = find(p, at->position, direction, h);
-    if (total > 0) {
-        meeting m = { p, density };
-        lights_along(&p->scene->lights, at, total, direction, met ? h->distance : INFINITY,
-                     meet_body, &m);
+    const ray r = {
+        .origin = p->lit.position, .direction = p->direction, .far = INFINITY, .dice = roll(p)
+    };
+    bool met = false;
+    if (!p->scene->options.unshadowed) {
+        met = world_closest(&p->scene->world, &r, &p->hit);
+        p->result.rays++;
     }
-    if (!met) {
-        if (wants_sky(p))
-            add_sky(p, direction, density);
+    if (p->lights > 0)
+        lights_along(&p->scene->lights, &p->lit, p->lights, p->direction,
+                     met ? p->hit.distance : INFINITY, meet_body, p);
+    if (!met && wants_sky(p))
+        add_sky(p);
+    if (met && is_last(p)) {
+        add_emission(p, place_emission(&p->scene->world, &p->hit, -p->direction));
         return false;
     }
-    if (wants(p, AG_PART_EMITTED))
-        add_emission(p, h, direction, density);
-    return !is_last(p);
+    return met;
 }
 
-// From the first surface on.
-static void walk(path *p, place at, vec3 wo)
+static bool arrive(path *p)
 {
-    for (;;) {
-        bsdf b = bsdf_at(&p->scene->albedo, &at, wo);
-        if (p->scattered == 0)
-            p->result.albedo = surface_albedo(b.s) + b.s.single;
-        lit_place lit = { at.origin, at.normal };
-        float total = wants(p, AG_PART_LIGHTS) ? lights_weight(&p->scene->lights, &lit) : 0;
-        light_place(p, &b, &lit, total);
-        vec3 direction;
-        float density;
-        hit h;
-        if (!scatter(p, &b, &direction, &density) || !survives(p) ||
-            !go_on(p, &lit, total, direction, density, &h))
-            return;
-        wo = -direction;
-        at = place_at(&p->scene->world, &h, wo);
-        if (at.unlit) { // it shines by itself, whatever lights it
-            if (wants(p, AG_PART_EMITTED))
-                add(p, p->throughput * at.base_color);
-            return;
-        }
+    p->place = place_at(&p->scene->world, &p->hit, -p->direction);
+    if (p->place.unlit) { // it shines by itself, whatever lights it
+        if (wants(p, AG_PART_EMITTED))
+            add(p, p->throughput * p->place.base_color);
+        return false;
     }
+    add_emission(p, p->place.emission);
+    return true;
 }
 
 // ---- From the eye --------------------------------------------------------------------
@@ -344,16 +365,10 @@ static ray eye_ray(path *p, uint32_t x, uint32_t y)
     else
         r.direction = normalize(forward + off);
     float along = dot(r.direction, forward);
-    r.near = max(v->near_m, 0) / along;
+    r.near = max(v->near_m, 0.0f) / along;
     r.far = v->far_m / along;
-    r.dice = sampler_mix(p->dice.seed, sampler_mix(p->dice.index, p->dice.drawn));
+    r.dice = roll(p);
     return r;
-}
-
-static void see_background(path *p, vec3 direction)
-{
-    if (p->scene->picture.background == AG_BACKGROUND_ENVIRONMENT)
-        add_seen(p, sky_at(&p->scene->sky, direction).radiance);
 }
 
 static bool see_body(path *p, const ray *r, float distance)
@@ -367,30 +382,95 @@ static bool see_body(path *p, const ray *r, float distance)
     return true;
 }
 
-path_result path_follow(const path_scene *s, uint32_t x, uint32_t y, uint32_t index)
+// What the eye sees first; true where a path begins there.
+static bool see(path *p, const ray *r, bool met)
 {
-    path p = {
-        .scene = s,
-        .dice = { index, sampler_mix(sampler_mix(s->options.seed, x), y), 0 },
-        .throughput = vec3(1, 1, 1),
-        .sky_share = vec3(1, 1, 1),
-    };
-    ray r = eye_ray(&p, x, y);
-    hit h;
-    p.result.rays++;
-    bool met = world_closest(&s->world, &r, &h);
-    if (see_body(&p, &r, met ? h.distance : INFINITY))
-        return p.result;
+    const view *v = &p->scene->view;
+    p->direction = r->direction;
+    p->result.rays++;
+    if (see_body(p, r, met ? p->hit.distance : INFINITY))
+        return false;
     if (!met) {
-        see_background(&p, r.direction);
-        return p.result;
+        if (p->scene->picture.background == AG_BACKGROUND_ENVIRONMENT)
+            add_seen(p, sky_at(&p->scene->sky, r->direction).radiance);
+        return false;
     }
-    vec3 wo = -r.direction;
-    place at = place_at(&s->world, &h, wo);
-    p.result.depth = dot(at.position - loaded(s->view.eye), loaded(s->view.forward));
-    p.result.normal = at.unlit ? at.face : at.normal;
-    add_seen(&p, at.unlit ? at.base_color : place_emission(&s->world, &h, wo));
-    if (!at.unlit)
-        walk(&p, at, wo);
-    return p.result;
+    p->place = place_at(&p->scene->world, &p->hit, -r->direction);
+    p->result.depth = dot(p->place.position - loaded(v->eye), loaded(v->forward));
+    p->result.normal = p->place.unlit ? p->place.face : p->place.normal;
+    add_seen(p, p->place.unlit ? p->place.base_color : p->place.emission);
+    return !p->place.unlit;
+}
+
+// ---- Bundles -------------------------------------------------------------------------
+
+typedef struct bundle {
+    path paths[PATH_BUNDLE];
+    path *live[PATH_BUNDLE];
+    size_t count; // of those that live
+} bundle;
+
+// What is not set here is set before it is read: a path is large.
+static void begin(path *p, const path_scene *s, sampler dice)
+{
+    p->scene = s;
+    p->dice = dice;
+    p->throughput = p->sky_share = vec3(1, 1, 1);
+    p->scattered = p->pending_count = 0;
+    p->result = (path_result) { 0 };
+}
+
+// Samples of one pixel go the same way: they are traced together.
+static void start(bundle *b, const path_scene *s, const path_work *work, path *paths)
+{
+    ray rays[WORLD_PACKET];
+    hit hits[WORLD_PACKET];
+    uint32_t seed = sampler_mix(sampler_mix(s->options.seed, work->x), work->y);
+    for (uint32_t done = 0; done < work->count; done += WORLD_PACKET) {
+        uint32_t left = work->count - done, count = left < WORLD_PACKET ? left : WORLD_PACKET;
+        for (uint32_t i = 0; i < count; i++) {
+            path *p = &paths[done + i];
+            begin(p, s, (sampler) { work->from + done + i, seed, 0 });
+            rays[i] = eye_ray(p, work->x, work->y);
+        }
+        unsigned met = count == 1 ? world_closest(&s->world, rays, hits)
+                                  : world_closest_packet(&s->world, rays, count, hits);
+        for (uint32_t i = 0; i < count; i++) {
+            path *p = &paths[done + i];
+            p->hit = hits[i];
+            if (see(p, &rays[i], met >> i & 1))
+                b->live[b->count++] = p;
+        }
+    }
+}
+
+// Take a step with all that live; those that end with it are left out from there.
+static void step(bundle *b, bool (*take)(path *))
+{
+    size_t count = 0;
+    for (size_t i = 0; i < b->count; i++)
+        if (take(b->live[i]))
+            b->live[count++] = b->live[i];
+    b->count = count;
+}
+
+void path_follow(const path_scene *s, const path_work *work, size_t pixels, path_result *results)
+{
+    bundle b;
+    size_t count = 0;
+    b.count = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        start(&b, s, &work[i], &b.paths[count]);
+        count += work[i].count;
+    }
+    while (b.count) {
+        step(&b, take_surface);
+        step(&b, ask_lights);
+        step(&b, settle_lights);
+        step(&b, scatter);
+        step(&b, go_on);
+        step(&b, arrive);
+    }
+    for (size_t i = 0; i < count; i++)
+        results[i] = b.paths[i].result;
 }

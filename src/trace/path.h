@@ -1,4 +1,4 @@
-// One path of light, followed from the eye.
+// Paths of light, followed from the eye.
 #ifndef AG_TRACE_PATH_H
 #define AG_TRACE_PATH_H
 
@@ -31,7 +31,14 @@ typedef struct path_result {
     uint32_t rays;
 } path_result;
 
-// Sample `index` of a pixel.
-path_result path_follow(const path_scene *s, uint32_t x, uint32_t y, uint32_t index);
+// Samples [from, from + count) of a pixel, count at most PATH_BUNDLE.
+typedef struct path_work {
+    uint32_t x, y, from, count;
+} path_work;
+
+// Follow the samples of some pixels, together at most PATH_BUNDLE, side by side; results in the
+// same order.
+enum { PATH_BUNDLE = 64 };
+void path_follow(const path_scene *s, const path_work *work, size_t pixels, path_result *results);
 
 #endif

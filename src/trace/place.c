@@ -148,6 +148,19 @@ static surface_material material_of(const world *w, const hit *h, const vec2 uv[
     };
 }
 
+static vec3 emission_at(const world *w, const world_instance *i, const vec2 uv[2])
+{
+    const float *e = i->material->emissive;
+    vec4 texel = texture_read_color(&i->textures->emissive, uv, w->decode);
+    return vec3(e[0] * texel[0], e[1] * texel[1], e[2] * texel[2]);
+}
+
+static bool shines(const ag_material_desc *d, bool front)
+{
+    const float *e = d->emissive;
+    return (front || d->double_sided) && !d->unlit && (e[0] > 0 || e[1] > 0 || e[2] > 0);
+}
+
 static float reach(vec3 p)
 {
     return max(fabsf(p[0]), max(fabsf(p[1]), fabsf(p[2])));
@@ -186,20 +199,16 @@ place place_at(const world *w, const hit *h, vec3 wo)
     p.normal = lifted(n, p.face, wo);
     if (anisotropic)
         p.material.tangent = brushed(d, tangent, smooth, p.normal);
+    if (shines(d, front))
+        p.emission = emission_at(w, h->instance, uv);
     return p;
 }
 
 vec3 place_emission(const world *w, const hit *h, vec3 wo)
 {
-    const ag_material_desc *d = h->instance->material;
-    vec3 factor = vec3(d->emissive[0], d->emissive[1], d->emissive[2]);
-    bool shines = factor[0] > 0 || factor[1] > 0 || factor[2] > 0;
-    if (d->unlit || !shines || (!d->double_sided && dot(h->normal, wo) <= 0))
+    if (!shines(h->instance->material, dot(h->normal, wo) > 0))
         return vec3(0, 0, 0);
-    if (!h->instance->textures->emissive.pixels)
-        return factor;
     corners c = corners_of(h);
     const vec2 uv[2] = { uv_of(&c, 0), uv_of(&c, 1) };
-    vec4 texel = texture_read_color(&h->instance->textures->emissive, uv, w->decode);
-    return factor * vec3(texel[0], texel[1], texel[2]);
+    return emission_at(w, h->instance, uv);
 }

@@ -11,6 +11,7 @@ typedef struct place {
     vec3 face;   // of the triangle, unit, on the side of the ray
     vec3 normal; // of the shading, unit; the mirror direction about it is above the face
     vec3 base_color;
+    vec3 emission; // nit, towards wo
     surface_material material;
     bool unlit;
 } place;

@@ -109,6 +109,24 @@ typedef struct pass {
     atomic_bool stopped, cancelled;
 } pass;
 
+// As many pixels of a row at a time as fill a bundle.
+static uint32_t trace_pixels(pass *p, uint32_t x, uint32_t right, uint32_t y, uint32_t from,
+                             unsigned long long *rays)
+{
+    path_work work[PATH_BUNDLE] = { 0 };
+    path_result results[PATH_BUNDLE];
+    uint32_t each = p->to - from, pixels = PATH_BUNDLE / each;
+    pixels = pixels < right - x ? pixels : right - x;
+    for (uint32_t i = 0; i < pixels; i++)
+        work[i] = (path_work) { x + i, y, from, each };
+    path_follow(&p->reference->scene, work, pixels, results);
+    for (uint32_t i = 0; i < pixels * each; i++) {
+        film_add(&p->reference->film, x + i / each, y, &results[i]);
+        *rays += results[i].rays;
+    }
+    return pixels;
+}
+
 static void trace_tile(pass *p, uint32_t tile)
 {
     film *f = &p->reference->film;
@@ -116,13 +134,11 @@ static void trace_tile(pass *p, uint32_t tile)
     uint32_t right = left + FILM_TILE < f->width ? left + FILM_TILE : f->width;
     uint32_t bottom = top + FILM_TILE < f->height ? top + FILM_TILE : f->height;
     unsigned long long rays = 0;
+    if (f->samples[tile] >= p->to) // by a call that was stopped
+        return;
     for (uint32_t y = top; y < bottom; y++)
-        for (uint32_t x = left; x < right; x++)
-            for (uint32_t i = f->samples[tile]; i < p->to; i++) {
-                path_result sample = path_follow(&p->reference->scene, x, y, i);
-                film_add(f, x, y, &sample);
-                rays += sample.rays;
-            }
+        for (uint32_t x = left; x < right;)
+            x += trace_pixels(p, x, right, y, f->samples[tile], &rays);
     f->samples[tile] = p->to;
     atomic_fetch_add(&p->rays, rays);
 }

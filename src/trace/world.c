@@ -64,7 +64,7 @@ static ag_status make_instances(const ag_scene *scene, world *w)
 
 typedef struct query {
     struct RTCIntersectContext context; // first: the filters are handed this
-    const ray *ray;
+    const ray *rays;                    // by the id that Embree carries
     const world *world;
 } query;
 
@@ -95,42 +95,70 @@ float world_opacity(const world *w, const world_instance *i, uint32_t triangle, 
 }
 
 // Which instance a hit belongs to.
-static uint32_t instance_of(const struct RTCHit *h)
+static uint32_t instance_of(uint32_t instance, uint32_t geometry)
 {
-    return h->instID[0] != RTC_INVALID_GEOMETRY_ID ? h->instID[0] : h->geomID;
+    return instance != RTC_INVALID_GEOMETRY_ID ? instance : geometry;
 }
 
-// Decided by dice that are the same whenever the same ray meets the same triangle.
-static bool is_there(const query *q, const world_instance *i, uint32_t instance,
-                     const struct RTCHit *h)
+// From what Embree calls the normal, an edge's cross product in the space of the triangle.
+static vec3 normal_of(const world_instance *i, vec3 along)
 {
-    float opacity = world_opacity(q->world, i, h->primID, h->u, h->v);
+    const float v[3] = { along[0], along[1], along[2] };
+    return i->moved ? world_normal(i, v) : along * i->flip;
+}
+
+// A candidate, as a filter is given it.
+typedef struct candidate {
+    uint32_t instance, triangle;
+    float u, v;
+    vec3 normal;
+} candidate;
+
+// Decided by dice that are the same whenever the same ray meets the same triangle.
+static bool is_there(const world *w, const ray *r, const candidate *c)
+{
+    const world_instance *i = &w->instances[c->instance];
+    if (r->from_eye && !i->material->double_sided && dot(normal_of(i, c->normal), r->direction) > 0)
+        return false;
+    float opacity = world_opacity(w, i, c->triangle, c->u, c->v);
     if (opacity <= 0 || opacity >= 1)
         return opacity >= 1;
-    uint32_t roll = sampler_mix(sampler_mix(q->ray->dice, instance), h->primID);
+    uint32_t roll = sampler_mix(sampler_mix(r->dice, c->instance), c->triangle);
     return (float)(roll >> 8) * 0x1p-24f < opacity;
+}
+
+// Item `row` of ray or hit i of n, which stand side by side: the order is that of RTCRay and
+// RTCHit.  (Embree's own accessors are C++.)
+static float lane_float(const void *lanes, unsigned row, unsigned n, unsigned i)
+{
+    return ((const float *)lanes)[row * n + i];
+}
+
+static uint32_t lane_uint(const void *lanes, unsigned row, unsigned n, unsigned i)
+{
+    return ((const uint32_t *)lanes)[row * n + i];
 }
 
 static void filter(const struct RTCFilterFunctionNArguments *args)
 {
+    enum { RAY_ID = 10, NORMAL_X = 0, NORMAL_Y, NORMAL_Z, U, V, TRIANGLE, GEOMETRY, INSTANCE };
     const query *q = (const query *)(const void *)args->context;
-    const struct RTCHit h = *(const struct RTCHit *)(const void *)args->hit; // of one ray: no array
-    uint32_t index = instance_of(&h);
-    const world_instance *i = &q->world->instances[index];
-    if (q->ray->from_eye && !i->material->double_sided) {
-        vec3 normal = vec3(h.Ng_x, h.Ng_y, h.Ng_z);
-        const float along[3] = { normal[0], normal[1], normal[2] };
-        if (i->moved)
-            normal = world_normal(i, along);
-        else
-            normal = normal * i->flip;
-        if (dot(normal, q->ray->direction) > 0) {
-            args->valid[0] = 0;
-            return;
-        }
+    const void *h = args->hit;
+    unsigned n = args->N;
+    for (unsigned i = 0; i < n; i++) {
+        if (!args->valid[i])
+            continue;
+        const candidate c = {
+            .instance = instance_of(lane_uint(h, INSTANCE, n, i), lane_uint(h, GEOMETRY, n, i)),
+            .triangle = lane_uint(h, TRIANGLE, n, i),
+            .u = lane_float(h, U, n, i),
+            .v = lane_float(h, V, n, i),
+            .normal = vec3(lane_float(h, NORMAL_X, n, i), lane_float(h, NORMAL_Y, n, i),
+                           lane_float(h, NORMAL_Z, n, i)),
+        };
+        if (!is_there(q->world, &q->rays[lane_uint(args->ray, RAY_ID, n, i)], &c))
+            args->valid[i] = 0;
     }
-    if (!is_there(q, i, index, &h))
-        args->valid[0] = 0;
 }
 
 // ---- Triangles -------------------------------------------------------------------
@@ -314,11 +342,18 @@ static struct RTCRay ray_for(const ray *r)
     };
 }
 
-static query query_for(const world *w, const ray *r)
+static query query_for(const world *w, const ray *rays)
 {
-    query q = { .ray = r, .world = w };
+    query q = { .rays = rays, .world = w };
     rtcInitIntersectContext(&q.context);
     return q;
+}
+
+static hit hit_from(const world *w, uint32_t instance, uint32_t triangle, float distance, float u,
+                    float v, vec3 along)
+{
+    const world_instance *i = &w->instances[instance];
+    return (hit) { i, triangle, distance, u, v, normal_of(i, along) };
 }
 
 bool world_closest(const world *w, const ray *r, hit *h)
@@ -329,17 +364,45 @@ bool world_closest(const world *w, const ray *r, hit *h)
     rtcIntersect1(w->top, &q.context, &rh);
     if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
-    const world_instance *i = &w->instances[instance_of(&rh.hit)];
-    const float along[3] = { rh.hit.Ng_x, rh.hit.Ng_y, rh.hit.Ng_z };
-    *h = (hit) {
-        .instance = i,
-        .triangle = rh.hit.primID,
-        .distance = rh.ray.tfar,
-        .u = rh.hit.u,
-        .v = rh.hit.v,
-        .normal = i->moved ? world_normal(i, along) : i->flip * vec3(along[0], along[1], along[2]),
-    };
+    *h = hit_from(w, instance_of(rh.hit.instID[0], rh.hit.geomID), rh.hit.primID, rh.ray.tfar,
+                  rh.hit.u, rh.hit.v, vec3(rh.hit.Ng_x, rh.hit.Ng_y, rh.hit.Ng_z));
     return true;
+}
+
+unsigned world_closest_packet(const world *w, const ray *r, unsigned count, hit *h)
+{
+    query q = query_for(w, r);
+    q.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    struct RTCRayHit8 rh;
+    int valid[WORLD_PACKET] __attribute__((aligned(32)));
+    for (unsigned i = 0; i < WORLD_PACKET; i++) {
+        const ray *from = &r[i < count ? i : 0];
+        valid[i] = i < count ? -1 : 0;
+        rh.ray.org_x[i] = from->origin[0];
+        rh.ray.org_y[i] = from->origin[1];
+        rh.ray.org_z[i] = from->origin[2];
+        rh.ray.dir_x[i] = from->direction[0];
+        rh.ray.dir_y[i] = from->direction[1];
+        rh.ray.dir_z[i] = from->direction[2];
+        rh.ray.tnear[i] = from->near;
+        rh.ray.tfar[i] = from->far;
+        rh.ray.time[i] = 0;
+        rh.ray.mask[i] = 0xffffffffu;
+        rh.ray.id[i] = i;
+        rh.ray.flags[i] = 0;
+        rh.hit.geomID[i] = rh.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect8(valid, w->top, &q.context, &rh);
+    unsigned found = 0;
+    for (unsigned i = 0; i < count; i++) {
+        if (rh.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+            continue;
+        found |= 1u << i;
+        h[i] = hit_from(w, instance_of(rh.hit.instID[0][i], rh.hit.geomID[i]), rh.hit.primID[i],
+                        rh.ray.tfar[i], rh.hit.u[i], rh.hit.v[i],
+                        vec3(rh.hit.Ng_x[i], rh.hit.Ng_y[i], rh.hit.Ng_z[i]));
+    }
+    return found;
 }
 
 bool world_blocked(const world *w, const ray *r)

@@ -54,6 +54,10 @@ void world_destroy(world *w); // zero is allowed
 // The first thing on a ray, if any.  Any number of threads may ask.
 bool world_closest(const world *w, const ray *r, hit *h);
 
+// The same for up to 8 rays that go much the same way: bit i of the answer tells of ray i.
+enum { WORLD_PACKET = 8 };
+unsigned world_closest_packet(const world *w, const ray *r, unsigned count, hit *h);
+
 // Whether something is on it.
 bool world_blocked(const world *w, const ray *r);
 
