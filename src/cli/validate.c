@@ -110,7 +110,7 @@ static ag_status make_scene(work *w)
 {
     validate_request *r = w->request;
     const ag_reference_goal goal = {
-        .samples = r->spp,
+        .samples = r->spp || r->seconds > 0 || r->noise > 0 ? r->spp : 64,
         .seconds = (double)r->seconds,
         .noise = r->noise,
     };

@@ -25,6 +25,8 @@ enum {
     CAUSE_SIZE = 512, // px, the larger side of a part's pictures at most
 };
 
+#define CAUSE_TIME 0.125 // of a goal's seconds
+
 typedef struct validation {
     const char *input; // borrowed
     uint32_t width, height;
@@ -38,8 +40,8 @@ typedef struct validation {
     size_t cause_count;
 } validation;
 
-// Make both pictures and all parts.  Of a goal's seconds each part takes an eighth.  `progress`
-// hears fractions of the whole.  Finish it either way.
+// Make both pictures and all parts; `progress` hears fractions of the whole.  Finish it either
+// way.
 ag_status validation_make(validation *v, shot *shot, ag_renderer *renderer,
                           const ag_reference_goal *goal, ag_progress progress);
 void validation_finish(validation *v);

@@ -21,12 +21,18 @@ static void write_pair(json *j, const picture_pair *pair)
     json_text(j, "reference", pair->reference);
 }
 
+static void write_apart(json *j, const linear_difference *d)
+{
+    json_real(j, "error", d->error);
+    json_real(j, "bias", d->bias);
+    json_real(j, "rms", d->rms);
+}
+
 static void write_cause(json *j, const cause *c, bool pictures)
 {
     json_open(j, NULL, '{');
     json_text(j, "name", c->name);
-    json_real(j, "error", c->apart.error);
-    json_real(j, "bias", c->apart.bias);
+    write_apart(j, &c->apart);
     json_real(j, "flip", (double)c->flip);
     if (pictures) {
         json_text(j, "about", c->about);
@@ -57,8 +63,7 @@ static void write_scene(json *j, const validation *v, bool pictures)
     json_real(j, "rmse_srgb", v->coded.rmse_srgb);
     json_real(j, "psnr_db", v->coded.psnr_db);
     json_real(j, "ssim", v->coded.ssim);
-    json_real(j, "error", v->apart.error);
-    json_real(j, "bias", v->apart.bias);
+    write_apart(j, &v->apart);
     json_real(j, "noise", (double)v->state.noise);
     json_count(j, "samples", v->state.samples);
     json_real(j, "frame_ms", v->frame_ms);
@@ -107,10 +112,10 @@ bool validation_report_page(const validation_report *r, char **out, size_t *size
 
 static void print_line(const validation *v)
 {
-    printf("%s: FLIP %.4f, worst %.2f at %u,%u, PSNR %.1f dB, SSIM %.4f; light off by %.1f %%, "
-           "noise %.1f %%\n",
+    printf("%s: FLIP %.4f, worst %.2f at %u,%u, PSNR %.1f dB, SSIM %.4f; light off by %.1f %% "
+           "(RMS), noise %.1f %%\n",
            v->input, (double)v->coded.flip, (double)v->coded.flip_max, v->coded.worst_x,
-           v->coded.worst_y, v->coded.psnr_db, v->coded.ssim, 100 * v->apart.error,
+           v->coded.worst_y, v->coded.psnr_db, v->coded.ssim, 100 * v->apart.rms,
            100 * (double)v->state.noise);
 }
 

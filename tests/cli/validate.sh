@@ -56,3 +56,15 @@ grep -q "FLIP is above 0.0001 in 1 of 1 scenes: demo:lights" err || fail "the li
 "$json" out argand device scenes.0.input=demo:lights scenes.0.flip scenes.0.psnr_db \
     scenes.0.samples=4 scenes.0.causes.0.name scenes.0.causes.0.error || fail "--json lacks"
 [ -s limit/index.html ] || fail "no page above the limit"
+
+# More samples, less noise: the mean difference falls, but not what noise is taken out of.
+for n in 2 16; do
+    "$argand" validate demo:materials -o few --size 64x64 --spp $n --device cpu --json >few.$n ||
+        fail "--spp $n"
+done
+python3 -c '
+import json
+few, many = (json.load(open(f"few.{n}"))["scenes"][0] for n in (2, 16))
+assert many["error"] < 0.8 * few["error"], (few["error"], many["error"])
+assert abs(many["rms"] - few["rms"]) < 0.25 * many["rms"], (few["rms"], many["rms"])
+' 2>err || fail "noise is in the wrong figures"
