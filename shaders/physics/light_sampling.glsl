@@ -36,7 +36,7 @@ static inline light_sample light_sample_at(vec3 to, real density)
     return s;
 }
 
-// Two unit vectors across a third and each other.  Duff et al. 2017, listing 3.
+// Two unit vectors across a third and each other.  Duff et al. 2017.
 STRUCT(light_across) {
     vec3 x;
     vec3 y;
@@ -196,20 +196,14 @@ static inline real light_panel_angle(light_panel p, real x)
 // The solid angle between the edge y of a panel endless in x, its axis and what is beyond x.
 static inline real light_panel_beyond(real x, real y, real z)
 {
-    real across2 = y * y + z * z;
-    real r = sqrt(x * x + across2);
-    real gap = x > 0.0f ? across2 / (r + x) : r - x;
-    return atan2(y * z * gap, z * z * r + x * y * y);
+    real r = sqrt(x * x + y * y + z * z);
+    return atan2(y * z * (r - x), z * z * r + x * y * y);
 }
 
-// sin b(high) - sin b(low), b = elevation of (d, y) over y = 0, without losing digits; high > 0.
+// sin b(high) - sin b(low), b = elevation of (d, y) over y = 0.
 static inline real light_rise(real low, real high, real d2)
 {
-    real a = sqrt(d2 + low * low);
-    real b = sqrt(d2 + high * high);
-    if (low > 0.0f)
-        return d2 * (high - low) * (high + low) / (a * b * (high * a + low * b));
-    return high / b - low / a;
+    return high / sqrt(d2 + high * high) - low / sqrt(d2 + low * low);
 }
 
 // 1 - sin b.

@@ -183,6 +183,8 @@ static chart chart_make(const light_case *l)
 
 static bool light_covers(const light_case *l, const double wi[3])
 {
+    if (l->kind == LIGHT_TUBE)
+        return true; // its density says it
     if (l->kind != LIGHT_TRIANGLE)
         return light_hit_double(l, wi) > 0;
     // On one side of the three planes through the place and an edge.
@@ -261,7 +263,9 @@ static void lights_have_the_density_they_claim(void **state)
     for (int i = 0; i < count; i++) {
         chart h = chart_make(&all[i]);
         chi_chart chi = { &h, chart_density, chart_sample };
-        double total, chance = chi_squared(&chi, 100000, 31 + (uint64_t)i, &total);
+        bool mixed = all[i].kind == LIGHT_TUBE && i / 2 % SEEN_COUNT == SEEN_FACING;
+        int samples = mixed ? 600000 : 100000;
+        double total, chance = chi_squared(&chi, samples, 31 + (uint64_t)i, &total);
         if (!(chance > least && fabs(total - 1) < 2e-3))
             print_error("light %d: kind %d, seen %d, chance %g, total %g\n", i, all[i].kind,
                         i / 2 % SEEN_COUNT, chance, total);

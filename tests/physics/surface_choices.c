@@ -513,6 +513,29 @@ static void image_light_has_the_mean_of_fresnel(void **state)
     }
 }
 
+// Every part is: the weights are those of one surface here.  Blinn's lobe is of the light and not
+// of the irradiance.
+static void parts_are_reciprocal(void **state)
+{
+    (void)state;
+    vec3 n = vec3(0, 0, 1);
+    for (uint model = 0; model < SURFACE_MODELS; model++) {
+        if ((model & SURFACE_DISTRIBUTION) >= SURFACE_BLINN ||
+            (model & SURFACE_DIFFUSE) > SURFACE_EON || (model & SURFACE_FRESNEL) == SURFACE_FRESNEL)
+            continue;
+        surface_material m = plain(model);
+        m.metallic = 0.5f;
+        surface s = surface_from_metallic_roughness(m, 0.6f, vec2(0.7f, 0.1f));
+        for (uint i = 0; i < 20; i++) {
+            vec3 a, b;
+            pair(i, 20, &a, &b);
+            vec3 ab = surface_direct(s, n, a, b) / b[2], ba = surface_direct(s, n, b, a) / a[2];
+            for (int k = 0; k < 3; k++)
+                assert_near((double)ab[k], (double)ba[k], 2e-5 * (double)ab[k] + 1e-6);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -521,6 +544,7 @@ int main(void)
         cmocka_unit_test(diffuse_albedos_are_the_integrals),
         cmocka_unit_test(eon_preserves_energy),
         cmocka_unit_test(eon_is_reciprocal),
+        cmocka_unit_test(parts_are_reciprocal),
         cmocka_unit_test(anisotropic_distribution_is_normalised),
         cmocka_unit_test(anisotropic_visibility_is_the_paper_s),
         cmocka_unit_test(layering_by_f_is_the_well_known_shader),
