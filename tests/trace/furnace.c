@@ -19,11 +19,28 @@ static ag_camera_desc camera_over(int rows, float NoV)
     };
 }
 
+// Of the patches, aslant to the eye; the bitangents are cross(normal, tangent).
+static const float tangent[4] = { 0.92106099f, 0, 0.38941834f, 1 };
+
 static void lay(ag_scene *scene, size_t index, float NoV, const ag_material_desc *material)
 {
     float x = (float)(index % COLUMNS), z = -(float)(index / COLUMNS) / NoV;
-    ag_mesh patch = stage_quad(scene, (float[3]) { x, 0, z }, (float[3]) { 1, 0, 0 },
-                               (float[3]) { 0, 0, -1 / NoV });
+    float positions[4][3], normals[4][3], tangents[4][4];
+    static const uint32_t indices[6] = { 0, 1, 2, 0, 2, 3 };
+    for (int i = 0; i < 4; i++) {
+        const float at[3] = { x + (i == 1 || i == 2), 0, z - (i >= 2 ? 1 / NoV : 0) };
+        memcpy(positions[i], at, sizeof at);
+        memcpy(normals[i], (float[3]) { 0, 1, 0 }, sizeof normals[i]);
+        memcpy(tangents[i], tangent, sizeof tangent);
+    }
+    const ag_mesh_desc desc = { .positions = &positions[0][0],
+                                .normals = &normals[0][0],
+                                .tangents = &tangents[0][0],
+                                .vertex_count = 4,
+                                .indices = indices,
+                                .index_count = 6 };
+    ag_mesh patch;
+    OK(ag_scene_add_mesh(scene, &desc, &patch));
     stage_show(scene, patch, material, NULL);
 }
 
@@ -94,10 +111,11 @@ static ag_material_desc model(unsigned i)
     return m;
 }
 
-// The material as paths have it, on a patch: its tangent is +X, its bitangent +Z.
+// The material as paths have it, on a patch.
 static place place_of(const ag_material_desc *d)
 {
     float c = cosf(d->anisotropy_rotation_rad), s = sinf(d->anisotropy_rotation_rad);
+    float x = tangent[0], z = tangent[2];
     return (place) {
         .normal = { 0, 1, 0 },
         .material = {
@@ -111,7 +129,7 @@ static place place_of(const ag_material_desc *d)
             .diffuse_roughness = d->diffuse_roughness,
             .shininess = d->shininess,
             .anisotropy = d->anisotropy,
-            .tangent = { c, 0, s },
+            .tangent = { c * x + s * z, 0, c * z - s * x },
             .conductor_n = { d->conductor_n[0], d->conductor_n[1], d->conductor_n[2] },
             .conductor_k = { d->conductor_k[0], d->conductor_k[1], d->conductor_k[2] },
             .f82_tint = { d->f82_tint[0], d->f82_tint[1], d->f82_tint[2] },
