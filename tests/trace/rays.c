@@ -188,6 +188,7 @@ static ag_scene *everything(void)
         stage_show(scene, soup(scene, &seed), &m[i], worlds[i + 1]);
         stage_show(scene, shared, &m[i], worlds[4 - i]);
     }
+    stage_show(scene, soup(scene, &seed), &m[0], worlds[2]);
     stage_show(scene, stage_ball(scene, 6, 0.5f, false, false), &m[0], NULL);
     return scene;
 }
