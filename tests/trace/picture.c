@@ -4,7 +4,7 @@
 
 #include <sched.h>
 
-enum { SIZE = 24 };
+enum { SIZE = 24, LARGE = 80 }; // px; a large one is many tasks
 
 static const float moved[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.5f, 0.5f, -0.5f, 1 };
 
@@ -49,9 +49,9 @@ static bool are_same(const ag_image *a, const ag_image *b)
 
 static void assert_sound(const ag_image *image)
 {
-    for (uint32_t i = 0; i < SIZE * SIZE; i++)
+    for (uint32_t i = 0; i < LARGE * LARGE; i++)
         for (int c = 0; c < 4; c++) {
-            float value = stage_pixel(image, i % SIZE, i / SIZE)[c];
+            float value = stage_pixel(image, i % LARGE, i / LARGE)[c];
             assert_true(isfinite(value) && value >= 0 && value < 100);
         }
 }
@@ -60,7 +60,7 @@ static void assert_sound(const ag_image *image)
 
 static ag_image *seeded(const ag_scene *scene, uint32_t seed, uint32_t samples)
 {
-    const ag_render_options picture = stage_linear(SIZE, SIZE);
+    const ag_render_options picture = stage_linear(LARGE, LARGE);
     return stage_trace(scene, &over, &picture, &(ag_reference_options) { .seed = seed }, samples);
 }
 
@@ -69,14 +69,14 @@ static void a_seed_is_a_picture(void **state)
     (void)state;
     ag_scene *scene = everything();
     cpu_set_t all, one;
-    ag_image *many = seeded(scene, 1, 12), *other = seeded(scene, 2, 12);
+    ag_image *many = seeded(scene, 1, 6), *other = seeded(scene, 2, 6);
     CPU_ZERO(&one);
     assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
     for (size_t i = 0; i < CPU_SETSIZE && !CPU_COUNT(&one); i++)
         if (CPU_ISSET(i, &all))
             CPU_SET(i, &one);
     assert_int_equal(sched_setaffinity(0, sizeof one, &one), 0);
-    ag_image *alone = seeded(scene, 1, 12);
+    ag_image *alone = seeded(scene, 1, 6);
     assert_int_equal(sched_setaffinity(0, sizeof all, &all), 0);
     assert_true(are_same(many, alone));
     assert_false(are_same(many, other));
@@ -108,20 +108,20 @@ static void what_is_cancelled_is_sound(void **state)
     (void)state;
     ag_scene *scene = everything_with(&(ag_log) { .write = quiet });
     ag_reference *r;
-    ag_image *half, *whole, *straight = seeded(scene, 1, 24);
+    ag_image *half, *whole, *straight = seeded(scene, 1, 12);
     double fraction = 0;
-    const ag_render_options picture = stage_linear(SIZE, SIZE);
+    const ag_render_options picture = stage_linear(LARGE, LARGE);
     OK(ag_reference_create(scene, &over, &picture, &(ag_reference_options) { .seed = 1 }, &r));
-    ag_reference_goal goal = { .samples = 24, .progress = { until_half, &fraction } };
+    ag_reference_goal goal = { .samples = 12, .progress = { until_half, &fraction } };
     assert_int_equal(ag_reference_trace(r, &goal), AG_ERROR_CANCELLED);
     uint32_t samples = ag_reference_describe(r).samples;
-    assert_in_range(samples, 1, 23);
+    assert_in_range(samples, 1, 11);
     OK(ag_reference_picture(r, &half));
     assert_sound(half);
     assert_false(are_same(half, straight));
     goal.progress.update = NULL;
     OK(ag_reference_trace(r, &goal));
-    assert_int_equal(ag_reference_describe(r).samples, 24);
+    assert_int_equal(ag_reference_describe(r).samples, 12);
     OK(ag_reference_picture(r, &whole));
     assert_true(are_same(whole, straight));
     ag_image_destroy(half);
