@@ -231,7 +231,7 @@ static void noise_falls_as_the_root(void **state)
     const ag_camera_desc camera = { .position = { 2, 3, 4 }, .fov_y_rad = 0.4f };
     const ag_render_options picture = stage_linear(SIZE, SIZE);
     ag_image *truth =
-        stage_trace(scene, &camera, &picture, &(ag_reference_options) { .seed = 17 }, 4096);
+        stage_trace(scene, &camera, &picture, &(ag_reference_options) { .seed = 17 }, 2048);
     double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, count = 0;
     for (uint32_t n = 4; n <= 256; n *= 4) {
         ag_image *image =
