@@ -192,7 +192,7 @@ static void light_by_emitters(path *p)
     const world *w = &p->scene->world;
     const hit *on = &found.at;
     vec3 light = place_emission(w, on, -found.direction) *
-                 world_opacity(w, on->instance, on->triangle, on->u, on->v);
+                 world_opacity(on->instance, on->triangle, on->u, on->v);
     float weight = p->scene->options.unshadowed ? 1 : weight_of_light(p, found.density, s.density);
     if (greatest(light) > 0 && weight > 0)
         await(p, found.direction, found.distance * 0.9999f,

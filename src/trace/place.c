@@ -53,6 +53,41 @@ static vec4 tangent_of(const world_instance *instance, const corners *c)
     return vec4(sum[0], sum[1], sum[2], instance->flip * c->at[0]->tangent[3]);
 }
 
+// The textures of a hit, as they are read one after the other.
+typedef struct reading {
+    const world *world;
+    const texture_set *set;
+    vec2 uv[2];
+    texture_place place; // of the last one; where all are alike, of all
+    bool found;
+} reading;
+
+static reading reading_at(const world *w, const hit *h, const corners *c)
+{
+    return (
+        reading) { .world = w, .set = h->instance->textures, .uv = { uv_of(c, 0), uv_of(c, 1) } };
+}
+
+static void seek(reading *r, const texture_use *use)
+{
+    if (!use->pixels || (r->found && r->set->alike))
+        return;
+    r->place = texture_find(use, r->uv);
+    r->found = true;
+}
+
+static vec4 read_plain(reading *r, const texture_use *use)
+{
+    seek(r, use);
+    return texture_read(use, &r->place);
+}
+
+static vec4 read_color(reading *r, const texture_use *use)
+{
+    seek(r, use);
+    return texture_read_color(use, &r->place, r->world->decode);
+}
+
 // Where the smooth surface is that the normals tell of, so that its shadows are not those of its
 // facets: Hanika 2021, "Hacking the Shadow Terminator", listing 4.1.
 static vec3 bulged(const corners *c, vec3 position, float side)
@@ -79,10 +114,10 @@ static vec2 turned(const texture_use *use, vec2 m)
     return vec2(m[0] * u[0] - m[1] * v[0], m[1] * v[1] - m[0] * u[1]);
 }
 
-static vec3 mapped(const hit *h, const vec2 uv[2], vec4 tangent, vec3 n)
+static vec3 mapped(const hit *h, reading *r, vec4 tangent, vec3 n)
 {
     const texture_use *map = &h->instance->textures->normal;
-    vec4 texel = texture_read(map, uv);
+    vec4 texel = read_plain(r, map);
     vec2 xy = vec2(2 * texel[0] - 1, 2 * texel[1] - 1);
     float z = sqrtf(max(1 - xy[0] * xy[0] - xy[1] * xy[1], 0));
     vec2 m = turned(map, xy) * h->instance->material->normal_scale;
@@ -123,12 +158,12 @@ static vec3 brushed(const ag_material_desc *m, vec4 tangent, vec3 interpolated, 
     return normalize(t);
 }
 
-static surface_material material_of(const world *w, const hit *h, const vec2 uv[2])
+static surface_material material_of(const hit *h, reading *r)
 {
     const ag_material_desc *d = h->instance->material;
     const texture_set *t = h->instance->textures;
-    vec4 metallic_roughness = texture_read(&t->metallic_roughness, uv);
-    vec4 tint = texture_read_color(&t->specular_color, uv, w->decode);
+    vec4 metallic_roughness = read_plain(r, &t->metallic_roughness);
+    vec4 tint = read_color(r, &t->specular_color);
     vec3 rgb = vec3(tint[0], tint[1], tint[2]);
     return (surface_material) {
         .metallic = d->metallic * metallic_roughness[2],
@@ -136,7 +171,7 @@ static surface_material material_of(const world *w, const hit *h, const vec2 uv[
         .dielectric_f0 = fresnel_f0_dielectric(d->ior),
         .specular_color =
             vec3(d->specular_color[0], d->specular_color[1], d->specular_color[2]) * rgb,
-        .specular = d->specular * texture_read(&t->specular, uv)[3],
+        .specular = d->specular * read_plain(r, &t->specular)[3],
         .model = h->instance->model,
         .diffuse_roughness = d->diffuse_roughness,
         .shininess = d->shininess,
@@ -148,10 +183,10 @@ static surface_material material_of(const world *w, const hit *h, const vec2 uv[
     };
 }
 
-static vec3 emission_at(const world *w, const world_instance *i, const vec2 uv[2])
+static vec3 emission_at(const world_instance *i, reading *r)
 {
     const float *e = i->material->emissive;
-    vec4 texel = texture_read_color(&i->textures->emissive, uv, w->decode);
+    vec4 texel = read_color(r, &i->textures->emissive);
     return vec3(e[0] * texel[0], e[1] * texel[1], e[2] * texel[2]);
 }
 
@@ -174,9 +209,9 @@ place place_at(const world *w, const hit *h, vec3 wo)
     bool front = dot(h->normal, wo) > 0;
     float side = front ? 1 : -1;
     p.face = normalize(h->normal / max(reach(h->normal), 1e-37f)) * side;
-    const vec2 uv[2] = { uv_of(&c, 0), uv_of(&c, 1) };
+    reading r = reading_at(w, h, &c);
     vec4 base = vec4(d->base_color[0], d->base_color[1], d->base_color[2], 1) *
-                texture_read_color(&h->instance->textures->base_color, uv, w->decode);
+                read_color(&r, &h->instance->textures->base_color);
     if (h->instance->mesh->has_colors)
         base *= color_of(&c);
     p.base_color = vec3(base[0], base[1], base[2]);
@@ -186,21 +221,21 @@ place place_at(const world *w, const hit *h, vec3 wo)
     // Just so far that the triangle itself is not met again.
     float nudge = 1e-6f * (reach(p.position) + reach(h->instance->at) + h->distance);
     p.origin = bulged(&c, p.position, side) + nudge * p.face;
-    p.material = material_of(w, h, uv);
+    p.material = material_of(h, &r);
     p.material.base_color = p.base_color;
     vec4 tangent = { 0, 0, 0, 0 };
     bool maps = h->instance->textures->normal.pixels != NULL;
     bool anisotropic = (p.material.model & SURFACE_DISTRIBUTION) == SURFACE_ANISOTROPIC;
     if (maps || anisotropic)
         tangent = tangent_of(h->instance, &c);
-    vec3 n = maps ? mapped(h, uv, tangent, smooth) : smooth;
+    vec3 n = maps ? mapped(h, &r, tangent, smooth) : smooth;
     float length2 = dot(n, n);
     n = length2 > 1e-12f ? n * (side / sqrtf(length2)) : p.face;
     p.normal = lifted(n, p.face, wo);
     if (anisotropic)
         p.material.tangent = brushed(d, tangent, smooth, p.normal);
     if (shines(d, front))
-        p.emission = emission_at(w, h->instance, uv);
+        p.emission = emission_at(h->instance, &r);
     return p;
 }
 
@@ -209,6 +244,6 @@ vec3 place_emission(const world *w, const hit *h, vec3 wo)
     if (!shines(h->instance->material, dot(h->normal, wo) > 0))
         return vec3(0, 0, 0);
     corners c = corners_of(h);
-    const vec2 uv[2] = { uv_of(&c, 0), uv_of(&c, 1) };
-    return emission_at(w, h->instance, uv);
+    reading r = reading_at(w, h, &c);
+    return emission_at(h->instance, &r);
 }

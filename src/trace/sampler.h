@@ -63,18 +63,24 @@ static inline float sampler_float(uint32_t x)
     return (float)(sampler_reversed(x) >> 8) * 0x1p-24f;
 }
 
+// The place in its set of the sample, its bits reversed, and the seed of the set.
+static inline uint32_t sampler_place(sampler *s, uint32_t *seed)
+{
+    *seed = sampler_mix(s->seed, s->drawn++);
+    return sampler_reversed(sampler_scrambled(sampler_reversed(s->index), sampler_hash(*seed)));
+}
+
 static inline vec2 sampler_pair(sampler *s)
 {
-    uint32_t seed = sampler_mix(s->seed, s->drawn++);
-    uint32_t index =
-        sampler_reversed(sampler_scrambled(sampler_reversed(s->index), sampler_hash(seed)));
-    return vec2(sampler_float(sampler_scrambled(index, sampler_mix(seed, 1))),
-                sampler_float(sampler_scrambled(sampler_sobol(index), sampler_mix(seed, 2))));
+    uint32_t seed, at = sampler_place(s, &seed);
+    return vec2(sampler_float(sampler_scrambled(at, sampler_mix(seed, 1))),
+                sampler_float(sampler_scrambled(sampler_sobol(at), sampler_mix(seed, 2))));
 }
 
 static inline float sampler_number(sampler *s)
 {
-    return sampler_pair(s)[0];
+    uint32_t seed, at = sampler_place(s, &seed);
+    return sampler_float(sampler_scrambled(at, sampler_mix(seed, 1)));
 }
 
 #endif

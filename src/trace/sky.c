@@ -9,13 +9,35 @@
 #include "base/threads.h"
 #include "image/image.h"
 #include "physics/color.glsl"
-#include "physics/environment.glsl"
 
 #include <stdlib.h>
 
 enum { COLUMNS_MAX = 1024, ROWS_MAX = 512 };
 
 // ---- What is seen ------------------------------------------------------------------
+
+// The angle of (x, y) to 5e-7 rad, without a call: as wide_atan2 (bake/wide.h).
+static float angle(float y, float x)
+{
+    float ax = fabsf(x), ay = fabsf(y), high = max(ax, ay), low = min(ax, ay);
+    float q = low / max(high, 1e-37f), s = q * q;
+    float p = 0.007648354f * s - 0.036360431f;
+    p = p * s + 0.083126453f;
+    p = p * s - 0.134478641f;
+    p = p * s + 0.198720403f;
+    p = p * s - 0.333256780f;
+    p = (p * s + 0.999999226f) * q;
+    p = ay > ax ? 0.5f * PI - p : p;
+    p = x < 0 ? PI - p : p;
+    return copysignf(p, y);
+}
+
+// As environment_uv().
+static vec2 uv_of(vec3 d)
+{
+    return vec2(0.5f + angle(d[2], d[0]) * (0.5f * INV_PI),
+                angle(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) * INV_PI);
+}
 
 static vec3 texel(const ag_image *image, uint32_t x, uint32_t y)
 {
@@ -28,8 +50,8 @@ static vec3 lookup(const ag_image *image, vec2 uv)
 {
     int width = (int)image->width, height = (int)image->height;
     float x = uv[0] * (float)width - 0.5f, y = uv[1] * (float)height - 0.5f;
-    float left = floorf(x), top = floorf(y), fx = x - left, fy = y - top;
-    int x0 = (int)left, x1 = x0 + 1, y0 = (int)top, y1 = y0 + 1;
+    int x0 = (int)(x + 1) - 1, y0 = (int)(y + 1) - 1, x1 = x0 + 1, y1 = y0 + 1; // from -1 on
+    float fx = x - (float)x0, fy = y - (float)y0;
     x0 = x0 < 0 ? x0 + width : x0;
     x1 = x1 >= width ? x1 - width : x1;
     y0 = y0 < 0 ? 0 : y0;
@@ -221,7 +243,7 @@ sky_look sky_sample(const trace_sky *s, vec2 u)
     float y = mix(s->heights[row], s->heights[row + 1], down);
     float r = sqrtf(max(1 - y * y, 0.0f)), turn = ((float)column + across) / (float)s->columns;
     float phi = (turn - 0.5f) * 2 * PI;
-    vec2 uv = vec2(turn, atan2f(r, y) * INV_PI);
+    vec2 uv = vec2(turn, angle(r, y) * INV_PI);
     return (sky_look) {
         .direction = world_from_sky(s, vec3(r * cosf(phi), y, r * sinf(phi))),
         .radiance = s->intensity * lookup(s->image, uv),
@@ -234,7 +256,7 @@ sky_look sky_at(const trace_sky *s, vec3 direction)
     sky_look look = { .direction = direction };
     if (!s->image)
         return look;
-    vec2 uv = environment_uv(sky_from_world(s, direction));
+    vec2 uv = uv_of(sky_from_world(s, direction));
     int row = (int)(uv[1] * (float)s->rows), column = (int)(uv[0] * (float)s->columns);
     row = row < s->rows ? row : s->rows - 1;
     column = column < 0 ? 0 : column < s->columns ? column : s->columns - 1;

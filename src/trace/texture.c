@@ -35,6 +35,22 @@ static bool use_init(const ag_scene *scene, const ag_texture_use *from, texture_
     return use->pixels != NULL;
 }
 
+static void set_alike(texture_set *set)
+{
+    const texture_use *uses[] = {
+        &set->base_color, &set->metallic_roughness, &set->normal,
+        &set->emissive,   &set->specular,           &set->specular_color
+    };
+    const texture_use *first = NULL;
+    set->alike = true;
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        if (!uses[i]->pixels)
+            continue;
+        set->alike &= !first || texture_alike(first, uses[i]);
+        first = uses[i];
+    }
+}
+
 ag_status texture_set_init(const ag_scene *scene, const ag_material_desc *m, texture_set *set)
 {
     bool there = use_init(scene, &m->base_color_texture, &set->base_color) &
@@ -47,6 +63,7 @@ ag_status texture_set_init(const ag_scene *scene, const ag_material_desc *m, tex
         return log_fail(&scene->log, AG_ERROR_ARGUMENT,
                         "the scene's images were given to a renderer (ag_renderer_take): load the "
                         "scene again to trace it");
+    set_alike(set);
     return AG_OK;
 }
 
@@ -67,64 +84,73 @@ static int wrapped(int i, int size, uint8_t wrap)
     return i < 0 ? i + size : i;
 }
 
-// Four texels and their weights.
-typedef struct taps {
-    const uint8_t *texel[4];
-    float weight[4];
-} taps;
-
 // Beyond this many repetitions there are no digits left for the place within one.
 static float tamed(float x)
 {
-    return fabsf(x) < 1e6f ? x : 0.0f;
+    return x > -1e6f && x < 1e6f ? x : 0.0f;
 }
 
-static taps taps_of(const texture_use *use, const vec2 uv[2])
+// floor(x), of what an int holds; the library's is a call.
+static int whole(float x)
 {
+    int i = (int)x;
+    return i - (x < (float)i);
+}
+
+texture_place texture_find(const texture_use *use, const vec2 uv[2])
+{
+    texture_place place = { { 0 }, { 0 } };
+    if (!use->pixels)
+        return place;
     vec2 at = uv[use->uv_set];
     float x = tamed(use->u[0] * at[0] + use->u[1] * at[1] + use->u[2]) * (float)use->width - 0.5f;
     float y = tamed(use->v[0] * at[0] + use->v[1] * at[1] + use->v[2]) * (float)use->height - 0.5f;
-    x = min(max(x, -1e9f), 1e9f);
-    y = min(max(y, -1e9f), 1e9f);
+    x = clamp(x, -1e9f, 1e9f);
+    y = clamp(y, -1e9f, 1e9f);
     if (use->nearest) {
-        x = floorf(x + 0.5f);
-        y = floorf(y + 0.5f);
+        x = (float)whole(x + 0.5f);
+        y = (float)whole(y + 0.5f);
     }
-    float left = floorf(x), top = floorf(y), fx = x - left, fy = y - top;
-    int x0 = wrapped((int)left, use->width, use->wrap_u);
-    int x1 = wrapped((int)left + 1, use->width, use->wrap_u);
-    size_t y0 = (size_t)wrapped((int)top, use->height, use->wrap_v) * (size_t)use->width;
-    size_t y1 = (size_t)wrapped((int)top + 1, use->height, use->wrap_v) * (size_t)use->width;
-    const uint8_t *p = use->pixels;
-    return (taps) {
-        { p + 4 * (y0 + (size_t)x0), p + 4 * (y0 + (size_t)x1), p + 4 * (y1 + (size_t)x0),
-          p + 4 * (y1 + (size_t)x1) },
+    int left = whole(x), top = whole(y);
+    float fx = x - (float)left, fy = y - (float)top;
+    size_t x0 = (size_t)wrapped(left, use->width, use->wrap_u);
+    size_t x1 = (size_t)wrapped(left + 1, use->width, use->wrap_u);
+    size_t y0 = (size_t)wrapped(top, use->height, use->wrap_v) * (size_t)use->width;
+    size_t y1 = (size_t)wrapped(top + 1, use->height, use->wrap_v) * (size_t)use->width;
+    return (texture_place) {
+        { y0 + x0, y0 + x1, y1 + x0, y1 + x1 },
         { (1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy },
     };
 }
 
-vec4 texture_read(const texture_use *use, const vec2 uv[2])
+bool texture_alike(const texture_use *a, const texture_use *b)
+{
+    return a->width == b->width && a->height == b->height && a->wrap_u == b->wrap_u &&
+           a->wrap_v == b->wrap_v && a->nearest == b->nearest && a->uv_set == b->uv_set &&
+           memcmp(a->u, b->u, sizeof a->u) == 0 && memcmp(a->v, b->v, sizeof a->v) == 0;
+}
+
+vec4 texture_read(const texture_use *use, const texture_place *place)
 {
     vec4 sum = { 0, 0, 0, 0 };
     if (!use->pixels)
         return sum + 1.0f;
-    taps t = taps_of(use, uv);
     for (int i = 0; i < 4; i++) {
-        const uint8_t *p = t.texel[i];
-        sum += (t.weight[i] / 255) * vec4((float)p[0], (float)p[1], (float)p[2], (float)p[3]);
+        const uint8_t *p = use->pixels + 4 * place->texel[i];
+        sum += (place->weight[i] * (1.0f / 255)) *
+               vec4((float)p[0], (float)p[1], (float)p[2], (float)p[3]);
     }
     return sum;
 }
 
-vec4 texture_read_color(const texture_use *use, const vec2 uv[2], const float decode[256])
+vec4 texture_read_color(const texture_use *use, const texture_place *place, const float decode[256])
 {
     vec4 sum = { 0, 0, 0, 0 };
     if (!use->pixels)
         return sum + 1.0f;
-    taps t = taps_of(use, uv);
     for (int i = 0; i < 4; i++) {
-        const uint8_t *p = t.texel[i];
-        sum += t.weight[i] *
+        const uint8_t *p = use->pixels + 4 * place->texel[i];
+        sum += place->weight[i] *
                vec4(decode[p[0]], decode[p[1]], decode[p[2]], (float)p[3] * (1.0f / 255));
     }
     return sum;

@@ -15,6 +15,7 @@ typedef struct texture_use {
 } texture_use;
 
 typedef struct texture_set {
+    bool alike; // all that are there have the same place everywhere
     texture_use base_color, metallic_roughness, normal, emissive, specular, specular_color;
 } texture_set;
 
@@ -22,11 +23,23 @@ typedef struct texture_set {
 AG_CHECK ag_status texture_set_init(const ag_scene *scene, const ag_material_desc *material,
                                     texture_set *set);
 
-// At the mesh's coordinates `uv` (both sets), each channel in [0, 1] as it is coded; white where
-// there is none.
-vec4 texture_read(const texture_use *use, const vec2 uv[2]);
+// Where a texture is read: four texels and their weights.
+typedef struct texture_place {
+    size_t texel[4];
+    float weight[4];
+} texture_place;
+
+// Of the mesh's coordinates `uv` (both sets).  A texture that is not there has no place.
+texture_place texture_find(const texture_use *use, const vec2 uv[2]);
+
+// Whether two textures that are there have the same place everywhere.
+bool texture_alike(const texture_use *a, const texture_use *b);
+
+// Each channel in [0, 1] as it is coded; white where there is no texture.
+vec4 texture_read(const texture_use *use, const texture_place *place);
 
 // The same with R, G, B decoded by a table of sRGB.
-vec4 texture_read_color(const texture_use *use, const vec2 uv[2], const float decode[256]);
+vec4 texture_read_color(const texture_use *use, const texture_place *place,
+                        const float decode[256]);
 
 #endif

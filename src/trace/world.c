@@ -74,7 +74,7 @@ static vec2 mixed(const float a[2], const float b[2], const float c[2], float u,
     return vec2(t * a[0] + u * b[0] + v * c[0], t * a[1] + u * b[1] + v * c[1]);
 }
 
-float world_opacity(const world *w, const world_instance *i, uint32_t triangle, float u, float v)
+float world_opacity(const world_instance *i, uint32_t triangle, float u, float v)
 {
     const ag_material_desc *m = i->material;
     if (m->alpha_mode == AG_ALPHA_OPAQUE)
@@ -87,8 +87,9 @@ float world_opacity(const world *w, const world_instance *i, uint32_t triangle, 
     float color =
         ((1 - u - v) * (float)a->color[3] + u * (float)b->color[3] + v * (float)c->color[3]) /
         65535;
-    float alpha =
-        m->base_color[3] * color * texture_read_color(&i->textures->base_color, uv, w->decode)[3];
+    const texture_use *map = &i->textures->base_color;
+    texture_place place = texture_find(map, uv);
+    float alpha = m->base_color[3] * color * texture_read(map, &place)[3];
     if (m->alpha_mode == AG_ALPHA_MASK)
         return alpha >= m->alpha_cutoff ? 1 : 0;
     return alpha;
@@ -120,7 +121,7 @@ static bool is_there(const world *w, const ray *r, const candidate *c)
     const world_instance *i = &w->instances[c->instance];
     if (r->from_eye && !i->material->double_sided && dot(normal_of(i, c->normal), r->direction) > 0)
         return false;
-    float opacity = world_opacity(w, i, c->triangle, c->u, c->v);
+    float opacity = world_opacity(i, c->triangle, c->u, c->v);
     if (opacity <= 0 || opacity >= 1)
         return opacity >= 1;
     uint32_t roll = sampler_mix(sampler_mix(r->dice, c->instance), c->triangle);

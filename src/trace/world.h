@@ -80,6 +80,6 @@ static inline vec3 world_direction(const world_instance *i, const float d[3])
 }
 
 // The share of a surface that is there at a hit: its alpha, cut off or not.
-float world_opacity(const world *w, const world_instance *i, uint32_t triangle, float u, float v);
+float world_opacity(const world_instance *i, uint32_t triangle, float u, float v);
 
 #endif
