@@ -14,7 +14,7 @@
 static const float BRIGHTEST = 60000;
 
 // Surfaces before Russian roulette.
-enum { CERTAIN = 3 };
+enum { CERTAIN = 2 };
 
 // Light that arrives if nothing stands in its way.
 typedef struct pending {
