@@ -46,6 +46,7 @@ bench: ## build and run the benchmarks
 	@build/bench/bench/bench_scale
 	@build/bench/bench/bench_light_cost
 	@build/bench/bench/bench_lights
+	@build/bench/bench/bench_rays demo:million
 
 accuracy: ## print the area lights' errors against quadrature, methods side by side
 	@scripts/packages.sh build run test
