@@ -79,7 +79,7 @@ STRUCT(surface) {
     uint model;
     real a2_across;
     vec3 tangent;
-    real roughness;
+    real schlick_k; // of SURFACE_SCHLICK_GGX, under lights
     real shininess;
     vec3 base; // colour of a base that is not in `lambert`
     real base_weight;
@@ -225,7 +225,7 @@ static inline surface surface_choose_distribution(surface s, surface_material m)
     }
     s.tangent = m.tangent;
     s.shininess = m.shininess;
-    s.roughness = m.roughness;
+    s.schlick_k = microfacet_schlick_k(m.roughness);
     return s;
 }
 
@@ -334,7 +334,7 @@ static inline real surface_dv(surface s, vec3 n, vec3 wo, vec3 wi, vec3 h, real 
         v = microfacet_v_anisotropic(local_v, local_l, ax, ay);
     }
     if ((s.model & SURFACE_SHADOWING) == SURFACE_SCHLICK_GGX)
-        v = microfacet_v_schlick(NoV, NoL, microfacet_schlick_k(s.roughness));
+        v = microfacet_v_schlick(NoV, NoL, s.schlick_k);
     return d * v;
 }
 

@@ -74,7 +74,7 @@ static inline real surface_ratio(surface s, surface_frame f, surface_shine light
         real ggx = microfacet_d_anisotropic(h, f.ax, f.ay) * smith * NoL;
         return microfacet_blinn(NoH, s.shininess) / max(ggx, 1e-12f);
     }
-    return microfacet_v_schlick(f.v[2], NoL, microfacet_schlick_k(s.roughness)) / smith;
+    return microfacet_v_schlick(f.v[2], NoL, s.schlick_k) / smith;
 }
 
 // Radiance towards the eye, per unit of the light.

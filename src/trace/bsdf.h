@@ -13,6 +13,7 @@ typedef struct bsdf {
     surface_frame frame; // x along the tangent of an anisotropic lobe
     vec3 wo;
     float lobe_share; // of the directions that are drawn from the lobe
+    float sky_k;      // of Schlick's shadowing under image light: Karis 2013, eq. 4
 } bsdf;
 
 // BRDF times cosine, 1/sr, and the density of the direction, 1/sr.
@@ -30,6 +31,7 @@ static inline bsdf bsdf_at(const albedo_table *table, const place *p, vec3 wo)
                                                    : albedo_read(table, NoV, p->material.roughness);
     b.s = surface_from_metallic_roughness(p->material, NoV, dfg);
     b.frame = surface_frame_from(b.s, p->normal, wo);
+    b.sky_k = 0.5f * p->material.roughness * p->material.roughness;
     vec3 base = surface_albedo(b.s), lobe = b.s.single;
     float of_lobe = lobe[0] + lobe[1] + lobe[2], of_base = base[0] + base[1] + base[2];
     if (distribution == SURFACE_BLINN)
@@ -52,6 +54,22 @@ static inline scattered bsdf_evaluate(const bsdf *b, vec3 wi)
         of_lobe = sampling_ggx_density(b->frame.v, local, b->frame.ax, b->frame.ay);
     r.density = mix(NoL * INV_PI, of_lobe, b->lobe_share);
     return r;
+}
+
+// Whether the sky's light is reflected otherwise than other light.
+static inline bool bsdf_minds_sky(const bsdf *b)
+{
+    return (b->s.model & SURFACE_SHADOWING) == SURFACE_SCHLICK_GGX;
+}
+
+// bsdf_evaluate() of the sky's light.
+static inline scattered bsdf_evaluate_sky(const bsdf *b, vec3 wi)
+{
+    if (!bsdf_minds_sky(b))
+        return bsdf_evaluate(b, wi);
+    bsdf under = *b;
+    under.s.schlick_k = b->sky_k;
+    return bsdf_evaluate(&under, wi);
 }
 
 // `pick` chooses lobe or base, `u` the direction; false: into the surface.

@@ -29,13 +29,13 @@ typedef struct path {
     const path_scene *scene;
     sampler dice;
     vec3 throughput;
-    vec3 sky_share; // of the environment's light, by the part of the first surface that is asked
-                    // for
+    vec3 part_share;    // of the environment's light, by the part of the first surface that is
+                        // asked for
+    vec3 sky_share;     // the same, if the environment is met next
     uint32_t scattered; // how many surfaces have sent on the light that is added now
     path_result result;
     hit hit;
-    place place;
-    bsdf bsdf;
+    bsdf bsdf; // of the surface that it stands on
     lit_place lit;
     float lights; // lights_weight() of the place
     pending pending[PENDING];
@@ -139,7 +139,7 @@ static vec3 sky_part(const path *p, const surface_parts *f)
 {
     vec3 none = { 0, 0, 0, 0 };
     if (p->scattered > 1)
-        return (f->base + f->lobe) * p->sky_share;
+        return (f->base + f->lobe) * p->part_share;
     return (wants(p, AG_PART_DIFFUSE) ? f->base : none) +
            (wants(p, AG_PART_SPECULAR) ? f->lobe : none);
 }
@@ -157,7 +157,7 @@ static void light_by_sky(path *p)
     sky_look sky = sky_sample(&p->scene->sky, u);
     if (!(sky.density > 0) || dot(sky.direction, p->lit.normal) <= 0)
         return;
-    scattered s = bsdf_evaluate(&p->bsdf, sky.direction);
+    scattered s = bsdf_evaluate_sky(&p->bsdf, sky.direction);
     vec3 f = sky_part(p, &s.f);
     float weight = weight_of_light(p, sky.density, s.density) / sky.density;
     if (greatest(f) > 0)
@@ -237,16 +237,14 @@ static void add_emission(path *p, vec3 light)
 //
 // Each says whether the path goes on.
 
-static bool take_surface(path *p)
+static void stand_on(path *p, const place *at)
 {
-    vec3 wo = -p->direction;
-    p->bsdf = bsdf_at(&p->scene->albedo, &p->place, wo);
+    p->bsdf = bsdf_at(&p->scene->albedo, at, -p->direction);
     if (p->scattered == 0)
         p->result.albedo = surface_albedo(p->bsdf.s) + p->bsdf.s.single;
-    p->lit = (lit_place) { p->place.origin, p->place.normal };
+    p->lit = (lit_place) { at->origin, at->normal };
     p->lights = wants(p, AG_PART_LIGHTS) ? lights_weight(&p->scene->lights, &p->lit) : 0;
     p->scattered++;
-    return true;
 }
 
 static bool ask_lights(path *p)
@@ -281,6 +279,14 @@ static bool survives(path *p)
     return true;
 }
 
+static vec3 share_of(vec3 part, vec3 all)
+{
+    vec3 share = { 0, 0, 0, 0 };
+    for (int i = 0; i < 3; i++)
+        share[i] = all[i] > 0 ? part[i] / all[i] : 0;
+    return share;
+}
+
 // A direction to go on in.
 static bool scatter(path *p)
 {
@@ -292,10 +298,13 @@ static bool scatter(path *p)
     if (!(s.density > 0))
         return false;
     vec3 f = s.f.base + s.f.lobe;
-    if (p->scattered == 1) {
-        vec3 part = sky_part(p, &s.f);
-        for (int i = 0; i < 3; i++)
-            p->sky_share[i] = f[i] > 0 ? part[i] / f[i] : 0;
+    if (p->scattered == 1)
+        p->part_share = share_of(sky_part(p, &s.f), f);
+    p->sky_share = p->part_share;
+    if (bsdf_minds_sky(&p->bsdf)) {
+        surface_parts under = bsdf_evaluate_sky(&p->bsdf, p->direction).f;
+        p->sky_share = share_of(
+            p->scattered == 1 ? sky_part(p, &under) : (under.base + under.lobe) * p->part_share, f);
     }
     p->throughput = p->throughput * f / s.density;
     p->density = s.density;
@@ -333,13 +342,14 @@ static bool go_on(path *p)
 
 static bool arrive(path *p)
 {
-    p->place = place_at(&p->scene->world, &p->hit, -p->direction);
-    if (p->place.unlit) { // it shines by itself, whatever lights it
+    place at = place_at(&p->scene->world, &p->hit, -p->direction);
+    if (at.unlit) { // it shines by itself, whatever lights it
         if (wants(p, AG_PART_EMITTED))
-            add(p, p->throughput * p->place.base_color);
+            add(p, p->throughput * at.base_color);
         return false;
     }
-    add_emission(p, p->place.emission);
+    add_emission(p, at.emission);
+    stand_on(p, &at);
     return true;
 }
 
@@ -395,11 +405,13 @@ static bool see(path *p, const ray *r, bool met)
             add_seen(p, sky_at(&p->scene->sky, r->direction).radiance);
         return false;
     }
-    p->place = place_at(&p->scene->world, &p->hit, -r->direction);
-    p->result.depth = dot(p->place.position - loaded(v->eye), loaded(v->forward));
-    p->result.normal = p->place.unlit ? p->place.face : p->place.normal;
-    add_seen(p, p->place.unlit ? p->place.base_color : p->place.emission);
-    return !p->place.unlit;
+    place at = place_at(&p->scene->world, &p->hit, -r->direction);
+    p->result.depth = dot(at.position - loaded(v->eye), loaded(v->forward));
+    p->result.normal = at.unlit ? at.face : at.normal;
+    add_seen(p, at.unlit ? at.base_color : at.emission);
+    if (!at.unlit)
+        stand_on(p, &at);
+    return !at.unlit;
 }
 
 // ---- Bundles -------------------------------------------------------------------------
@@ -415,7 +427,7 @@ static void begin(path *p, const path_scene *s, sampler dice)
 {
     p->scene = s;
     p->dice = dice;
-    p->throughput = p->sky_share = vec3(1, 1, 1);
+    p->throughput = p->part_share = p->sky_share = vec3(1, 1, 1);
     p->scattered = p->pending_count = 0;
     p->result = (path_result) { 0 };
 }
@@ -464,7 +476,6 @@ void path_follow(const path_scene *s, const path_work *work, size_t pixels, path
         count += work[i].count;
     }
     while (b.count) {
-        step(&b, take_surface);
         step(&b, ask_lights);
         step(&b, settle_lights);
         step(&b, scatter);

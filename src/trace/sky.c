@@ -1,8 +1,8 @@
 // The environment as a light.
 //
 // Directions are drawn from cells of constant density, at most 1024 x 512 of them: by rows, then
-// within the row (Pharr, Jakob & Humphreys 2023, section 12.5).  A cell has the light of all
-// pixels that a bilinear lookup within it may touch, so that no light is without density.
+// within the row (Pharr, Jakob & Humphreys 2023, section 12.5).  A cell has the light that bilinear
+// lookups within it find, so that no light is without density.
 #include "trace/sky.h"
 
 #include "base/log.h"
@@ -85,14 +85,23 @@ static float greatest(vec3 c)
     return max(max(c[0], c[1]), c[2]);
 }
 
-// The mean of the pixels in [from, to) of one line, one more at either end.
+// The share of pixel `x` that a bilinear lookup within the pixels [from, to) sees, which reaches
+// half a pixel beyond them: of a pixel's tent, 1/8 is on either side of its neighbours' edges.
+static float share(int x, int from, int to)
+{
+    if (x < from || x >= to)
+        return 0.125f;
+    return 1 - 0.125f * (float)((x == from) + (x == to - 1));
+}
+
+// The light of one line of pixels in a cell.
 static float span(const ag_image *image, uint32_t y, int from, int to)
 {
     int width = (int)image->width;
     float sum = 0;
     for (int x = from - 1; x <= to; x++)
-        sum += greatest(texel(image, (uint32_t)((x + width) % width), y));
-    return sum / (float)(to - from + 2);
+        sum += share(x, from, to) * greatest(texel(image, (uint32_t)((x + width) % width), y));
+    return sum / (float)(to - from);
 }
 
 // guides[k] = the last cell that begins at or before the share k of the sum.
@@ -112,7 +121,7 @@ static void fill_row(void *context, size_t index)
     const filling *f = context;
     const trace_sky *s = f->sky;
     int width = (int)s->image->width, height = (int)s->image->height, row = (int)index;
-    int top = (int)((size_t)row * (size_t)height / (size_t)s->rows) - 1;
+    int top = (int)((size_t)row * (size_t)height / (size_t)s->rows);
     int bottom = (int)(((size_t)row + 1) * (size_t)height / (size_t)s->rows);
     float *sums = s->sums + index * (size_t)(s->columns + 1);
     // The solid angle of a cell, up to a factor that all share.
@@ -123,13 +132,11 @@ static void fill_row(void *context, size_t index)
         int from = (int)((size_t)c * (size_t)width / (size_t)s->columns);
         int to = (int)(((size_t)c + 1) * (size_t)width / (size_t)s->columns);
         double light = 0;
-        for (int y = top; y <= bottom; y++)
-            light += (double)span(s->image,
-                                  (uint32_t)(y < 0        ? 0
-                                             : y < height ? y
-                                                          : height - 1),
-                                  from, to);
-        total += light / (bottom - top + 1) * (double)size;
+        for (int y = top - 1; y <= bottom; y++) {
+            int held = y < 0 ? 0 : y < height ? y : height - 1;
+            light += (double)(share(y, top, bottom) * span(s->image, (uint32_t)held, from, to));
+        }
+        total += light / (bottom - top) * (double)size;
         sums[c + 1] = (float)total;
     }
     f->totals[row] = (float)total;

@@ -188,7 +188,9 @@ static void assert_models(float NoV)
     for (unsigned i = 0; i < MODELS; i++) {
         const ag_material_desc m = model(i);
         const place at = place_of(&m);
-        const bsdf b = bsdf_at(table, &at, wo);
+        bsdf b = bsdf_at(table, &at, wo);
+        // Karis 2013, eq. 4: what Schlick's shadowing is under image light.
+        b.s.schlick_k = m.roughness * m.roughness / 2;
         vec3 wanted = integrated(&b.s, at.material.tangent, wo);
         for (int c = 0; c < 3; c += 2) {
             estimate e = seen(p.light, i, c);
@@ -198,8 +200,10 @@ static void assert_models(float NoV)
             off[c / 2] += (e.mean - (double)wanted[c]) / MODELS;
             e.error *= 1.5; // one in so many is farther off than four
             assert_agrees(what, e, (double)wanted[c], 0.004);
+            // Schlick's shadowing is too weak at grazing angles with the sky's k.
+            double most = m.shadowing == AG_SHADOWING_SMITH ? 1.005 : 1.17;
             if (m.layering == AG_LAYERING_ALBEDO && m.distribution == AG_DISTRIBUTION_GGX)
-                assert_true(e.mean <= 1.005 + 4 * e.error);
+                assert_true(e.mean <= most + 4 * e.error);
             if (has_table(&m))
                 assert_agrees(what, e, seen(p.albedo, i, c).mean, 0.01);
         }
