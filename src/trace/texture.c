@@ -53,11 +53,11 @@ static void set_alike(texture_set *set)
 
 ag_status texture_set_init(const ag_scene *scene, const ag_material_desc *m, texture_set *set)
 {
-    bool there = use_init(scene, &m->base_color_texture, &set->base_color) &
-                 use_init(scene, &m->metallic_roughness_texture, &set->metallic_roughness) &
-                 use_init(scene, &m->normal_texture, &set->normal) &
-                 use_init(scene, &m->emissive_texture, &set->emissive) &
-                 use_init(scene, &m->specular_texture, &set->specular) &
+    bool there = use_init(scene, &m->base_color_texture, &set->base_color) &&
+                 use_init(scene, &m->metallic_roughness_texture, &set->metallic_roughness) &&
+                 use_init(scene, &m->normal_texture, &set->normal) &&
+                 use_init(scene, &m->emissive_texture, &set->emissive) &&
+                 use_init(scene, &m->specular_texture, &set->specular) &&
                  use_init(scene, &m->specular_color_texture, &set->specular_color);
     if (!there)
         return log_fail(&scene->log, AG_ERROR_ARGUMENT,
