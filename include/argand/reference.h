@@ -17,7 +17,8 @@
 extern "C" {
 #endif
 
-// Which directions light is looked for in: all three have the same mean.
+// Which directions light is looked for in: all three have the same mean, as far as floats
+// go: a sun of 1e12 nit in a sky of 1e3 leaves the lights' directions little for the rest.
 typedef enum ag_estimator {
     AG_ESTIMATOR_BOTH = 0, // by the lights and by the surface, weighted
     AG_ESTIMATOR_LIGHTS,   // by the lights alone (what has no density there is not seen)
@@ -27,8 +28,8 @@ typedef enum ag_estimator {
 typedef struct ag_reference_options {
     uint32_t max_bounces; // after the first surface; 0 -> until Russian roulette ends the path
     bool direct_only;     // no bounces: light comes straight from where it was made
-    bool unshadowed;      // nothing stands before a light: with `direct_only`, what
-                          // ag_renderer approximates
+    bool unshadowed;      // nothing stands before a light, and paths end at the first surface:
+                          // with `direct_only`, what ag_renderer approximates
     float clamp;          // of what one path adds by one light, exposed; 0 -> none
     uint32_t seed;        // the same seed gives the same bytes on any number of threads
     bool keep_aovs;       // ag_reference_aov will be asked
@@ -40,7 +41,7 @@ typedef struct ag_reference ag_reference;
 // Prepare a picture without a sample.  `scene` is borrowed, and must not change while the
 // reference lives; `camera` NULL -> ag_scene_frame's automatic view; of `picture` (NULL ->
 // defaults) quality and area_lights are not looked at; `options` NULL -> defaults.
-// AG_ERROR_ARGUMENT as ag_renderer_render.
+// AG_ERROR_ARGUMENT as ag_renderer_render; AG_ERROR_MEMORY.
 AG_CHECK ag_status ag_reference_create(const ag_scene *scene, const ag_camera_desc *camera,
                                        const ag_render_options *picture,
                                        const ag_reference_options *options,
@@ -75,12 +76,13 @@ AG_CHECK ag_status ag_reference_picture(const ag_reference *reference, ag_image 
 
 // What else is known of what each pixel sees first, RGBA32F, its mean over the samples.
 typedef enum ag_aov {
-    AG_AOV_ALBEDO = 0, // what the surface reflects of white light from everywhere
+    AG_AOV_ALBEDO = 0, // what the surface reflects of a white sky; Blinn's lobe not counted
     AG_AOV_NORMAL,     // world space, the shading normal towards the eye
     AG_AOV_DEPTH,      // m along the camera's axis, in all three; where nothing is, 0
     AG_AOV_DIRECT,     // exposed radiance: seen itself, or straight from lights by one surface
     AG_AOV_INDIRECT,   // exposed radiance: the rest; direct + indirect = the picture
 } ag_aov;
+// AG_ERROR_ARGUMENT without keep_aovs.
 AG_CHECK ag_status ag_reference_aov(const ag_reference *reference, ag_aov aov, ag_image **image);
 
 #ifdef __cplusplus

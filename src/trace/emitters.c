@@ -135,7 +135,8 @@ static ag_status add_triangle(emitters *e, listing *l, uint32_t instance, uint32
     emitter made = emitter_of(e->world, instance, index);
     float size = sqrtf(dot(made.area, made.area));
     const float *factor = i->material->emissive;
-    float power = isfinite(size) ? size * max(factor[0], max(factor[1], factor[2])) : 0;
+    // Bounded: the sum of all stays finite.
+    float power = isfinite(size) ? min(size * max(factor[0], max(factor[1], factor[2])), 1e29f) : 0;
     if (power > 0)
         power *= brightness(&l->blocks, i->mesh, index);
     if (!(power > 0))

@@ -44,7 +44,7 @@ static void add3(float sum[3], vec3 v)
 void film_add(film *f, uint32_t x, uint32_t y, const path_result *sample)
 {
     film_pixel *p = &f->pixels[(size_t)y * f->width + x];
-    float luminance = color_luminance(sample->direct + sample->indirect);
+    float luminance = min(color_luminance(sample->direct + sample->indirect), 1e15f);
     add3(p->direct, sample->direct);
     add3(p->indirect, sample->indirect);
     p->alpha += sample->alpha;

@@ -55,10 +55,13 @@ static trace_light light_from(const ag_light_desc *d)
     };
     if (spread > 0)
         l.radiance = l.intensity / spread;
-    // A sphere without a radius is a point.
-    if (d->kind == AG_LIGHT_SPHERE && !(spread > 0))
+    // A sphere without a radius that floats can square is a point.
+    if (d->kind == AG_LIGHT_SPHERE && !(d->radius_m > 1e-12f)) {
         l.kind = AG_LIGHT_POINT;
-    l.power = candela(&l);
+        l.radiance = vec3(0, 0, 0);
+        l.seen = false;
+    }
+    l.power = min(candela(&l), 1e30f); // of many together: finite
     return l;
 }
 
@@ -71,10 +74,14 @@ ag_status lights_init(const ag_scene *scene, ag_light only, trace_lights *l)
                         scene->lights_count);
     for (size_t i = 0; i < scene->lights_count; i++) {
         const ag_light_desc *d = &scene->lights[i];
-        if (light_is_ambient(d->kind) || (only.id && only.id != i + 1))
+        if (light_is_ambient(d->kind))
             continue;
         trace_light light = light_from(d);
-        if (!(light.power > 0))
+        if (only.id && only.id != i + 1) { // dark, but its body is there
+            light.intensity = light.radiance = vec3(0, 0, 0);
+            light.power = 0;
+        }
+        if (!(light.power > 0) && !light.seen)
             continue;
         l->bodies |= light_spread(d) > 0;
         l->all[l->count++] = light;
@@ -258,21 +265,22 @@ void lights_along(const trace_lights *l, const lit_place *p, float total, vec3 d
     }
 }
 
-bool lights_seen(const trace_lights *l, vec3 eye, vec3 direction, float near, bool suns,
-                 float *distance, vec3 *radiance)
+bool lights_seen(const trace_lights *l, vec3 eye, vec3 direction, float near, float far, bool suns,
+                 vec3 *radiance)
 {
-    bool found = false;
+    bool found = false, sun = false;
     for (size_t i = 0; l->bodies && i < l->count; i++) {
         const trace_light *light = &l->all[i];
-        if (!light->seen || !shines_along(light, direction) ||
-            (light->kind == AG_LIGHT_SUN && !suns))
+        if (!light->seen || !shines_along(light, direction))
             continue;
         float density, at = meet(light, light->position - eye, direction, &density);
-        if (at < near || at > *distance || (isinf(at) && found))
+        bool is_sun = light->kind == AG_LIGHT_SUN;
+        if (is_sun ? !suns || found || sun || at < 0 : at < near || at > far)
             continue;
-        *distance = at;
+        sun |= is_sun;
+        found |= !is_sun;
+        far = is_sun ? far : at;
         *radiance = light->radiance;
-        found = true;
     }
-    return found;
+    return found || sun;
 }

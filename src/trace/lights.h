@@ -31,7 +31,7 @@ typedef struct trace_lights {
     bool ambient_present;
 } trace_lights;
 
-// `only`: this light alone, where its id is not 0.
+// `only`: this light alone shines, where its id is not 0.
 AG_CHECK ag_status lights_init(const ag_scene *scene, ag_light only, trace_lights *l);
 void lights_finish(trace_lights *l); // zero is allowed
 
@@ -62,10 +62,10 @@ typedef void lights_met(void *context, vec3 radiance, float density);
 void lights_along(const trace_lights *l, const lit_place *p, float total, vec3 direction,
                   float distance, lights_met *met, void *context);
 
-// The nearest body that the eye sees between `near` and `*distance`, which becomes its own;
-// `*radiance` its light.  Suns are not among them unless they are asked for.
-bool lights_seen(const trace_lights *l, vec3 eye, vec3 direction, float near, bool suns,
-                 float *distance, vec3 *radiance);
+// The nearest body that the eye sees between `near` and `far`, else a sun where `suns` are asked
+// for; `*radiance` its light.
+bool lights_seen(const trace_lights *l, vec3 eye, vec3 direction, float near, float far, bool suns,
+                 vec3 *radiance);
 
 // The light of the ambient ones at a normal: irradiance over pi.
 vec3 lights_ambient(const trace_lights *l, vec3 normal);

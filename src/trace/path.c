@@ -53,7 +53,7 @@ static void add(path *p, vec3 light)
 {
     light = light * p->scene->picture.exposure;
     float most = max(light[0], max(light[1], light[2])), limit = p->scene->options.clamp;
-    if (!isfinite(most))
+    if (!isfinite(light[0] + light[1] + light[2])) // of light beyond what floats hold
         return;
     if (limit > 0 && most > limit)
         light = light * (limit / most);
@@ -195,7 +195,7 @@ static void light_by_emitters(path *p)
                  world_opacity(on->instance, on->triangle, on->u, on->v);
     float weight = p->scene->options.unshadowed ? 1 : weight_of_light(p, found.density, s.density);
     if (greatest(light) > 0 && weight > 0)
-        await(p, found.direction, found.distance * 0.9999f,
+        await(p, found.direction, found.distance * 0.99999f,
               p->throughput * f * light * (weight / found.density));
 }
 
@@ -333,16 +333,18 @@ static bool go_on(path *p)
                      met ? p->hit.distance : INFINITY, meet_body, p);
     if (!met && wants_sky(p))
         add_sky(p);
-    if (met && is_last(p)) {
-        add_emission(p, place_emission(&p->scene->world, &p->hit, -p->direction));
-        return false;
-    }
     return met;
 }
 
 static bool arrive(path *p)
 {
-    place at = place_at(&p->scene->world, &p->hit, -p->direction);
+    const world *w = &p->scene->world;
+    bool last = is_last(p);
+    if (last && !p->hit.instance->material->unlit) { // what it is made of does not matter
+        add_emission(p, place_emission(w, &p->hit, -p->direction));
+        return false;
+    }
+    place at = place_at(w, &p->hit, -p->direction);
     if (at.unlit) { // it shines by itself, whatever lights it
         if (wants(p, AG_PART_EMITTED))
             add(p, p->throughput * at.base_color);
@@ -381,12 +383,12 @@ static ray eye_ray(path *p, uint32_t x, uint32_t y)
     return r;
 }
 
-static bool see_body(path *p, const ray *r, float distance)
+static bool see_body(path *p, const ray *r, bool met)
 {
     vec3 radiance;
-    bool suns = p->scene->picture.background == AG_BACKGROUND_ENVIRONMENT && isinf(distance);
-    if (!lights_seen(&p->scene->lights, r->origin, r->direction, r->near, suns, &distance,
-                     &radiance))
+    bool suns = !met && p->scene->picture.background == AG_BACKGROUND_ENVIRONMENT;
+    if (!lights_seen(&p->scene->lights, r->origin, r->direction, r->near,
+                     met ? p->hit.distance : r->far, suns, &radiance))
         return false;
     add_seen(p, radiance);
     return true;
@@ -398,7 +400,7 @@ static bool see(path *p, const ray *r, bool met)
     const view *v = &p->scene->view;
     p->direction = r->direction;
     p->result.rays++;
-    if (see_body(p, r, met ? p->hit.distance : INFINITY))
+    if (see_body(p, r, met))
         return false;
     if (!met) {
         if (p->scene->picture.background == AG_BACKGROUND_ENVIRONMENT)
@@ -449,7 +451,8 @@ static void start(bundle *b, const path_scene *s, const path_work *work, path *p
                                   : world_closest_packet(&s->world, rays, count, hits);
         for (uint32_t i = 0; i < count; i++) {
             path *p = &paths[done + i];
-            p->hit = hits[i];
+            if (met >> i & 1)
+                p->hit = hits[i];
             if (see(p, &rays[i], met >> i & 1))
                 b->live[b->count++] = p;
         }

@@ -225,7 +225,7 @@ static bool run_pass(ag_reference *r, const ag_reference_goal *g, double start)
     parallel_for((size_t)r->film.columns * r->film.rows, run_tile, &p);
     r->samples = fewest(&r->film);
     r->rays += p.rays;
-    r->noise = film_noise(&r->film);
+    r->noise = r->samples > 1 ? film_noise(&r->film) : 0;
     return !p.cancelled;
 }
 

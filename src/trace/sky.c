@@ -94,6 +94,17 @@ static float share(int x, int from, int to)
     return 1 - 0.125f * (float)((x == from) + (x == to - 1));
 }
 
+// The first pixel of a cell, of so many of both in a line; and the cell that holds a pixel.
+static int pixel_of(int cell, int pixels, int cells)
+{
+    return (int)((int64_t)cell * pixels / cells);
+}
+
+static int cell_of(int pixel, int pixels, int cells)
+{
+    return (int)((((int64_t)pixel + 1) * cells - 1) / pixels);
+}
+
 // The light of one line of pixels in a cell.
 static float span(const ag_image *image, uint32_t y, int from, int to)
 {
@@ -101,7 +112,7 @@ static float span(const ag_image *image, uint32_t y, int from, int to)
     float sum = 0;
     for (int x = from - 1; x <= to; x++)
         sum += share(x, from, to) * greatest(texel(image, (uint32_t)((x + width) % width), y));
-    return sum / (float)(to - from);
+    return sum;
 }
 
 // guides[k] = the last cell that begins at or before the share k of the sum.
@@ -121,16 +132,14 @@ static void fill_row(void *context, size_t index)
     const filling *f = context;
     const trace_sky *s = f->sky;
     int width = (int)s->image->width, height = (int)s->image->height, row = (int)index;
-    int top = (int)((size_t)row * (size_t)height / (size_t)s->rows);
-    int bottom = (int)(((size_t)row + 1) * (size_t)height / (size_t)s->rows);
+    int top = pixel_of(row, height, s->rows), bottom = pixel_of(row + 1, height, s->rows);
     float *sums = s->sums + index * (size_t)(s->columns + 1);
     // The solid angle of a cell, up to a factor that all share.
     float size = s->heights[row] - s->heights[row + 1];
     double total = 0;
     sums[0] = 0;
     for (int c = 0; c < s->columns; c++) {
-        int from = (int)((size_t)c * (size_t)width / (size_t)s->columns);
-        int to = (int)(((size_t)c + 1) * (size_t)width / (size_t)s->columns);
+        int from = pixel_of(c, width, s->columns), to = pixel_of(c + 1, width, s->columns);
         double light = 0;
         for (int y = top - 1; y <= bottom; y++) {
             int held = y < 0 ? 0 : y < height ? y : height - 1;
@@ -167,8 +176,9 @@ static ag_status fill(trace_sky *s)
         free(totals);
         return no_memory(s->scene);
     }
-    for (size_t i = 0; i <= rows; i++)
-        s->heights[i] = cosf(PI * (float)i / (float)rows);
+    int height = (int)s->image->height;
+    for (int i = 0; i <= s->rows; i++)
+        s->heights[i] = cosf(PI * (float)pixel_of(i, height, s->rows) / (float)height);
     filling f = { s, totals };
     parallel_for(rows, fill_row, &f);
     float *sums = s->sums + rows * (columns + 1);
@@ -229,13 +239,21 @@ static int find(const sky_line *l, float u, float *within)
     return low;
 }
 
-// Of a cell, 1/sr.
-static float density_of(const trace_sky *s, const sky_line *cells, int row, int column)
+// The share of a line's sum that one of its items has, by which find() finds it.
+static float chance(const sky_line *l, int item)
 {
-    float total = s->sums[(size_t)s->rows * (size_t)(s->columns + 1) + (size_t)s->rows];
-    float size = (s->heights[row] - s->heights[row + 1]) * (2 * PI) / (float)s->columns;
-    float light = cells->sums[column + 1] - cells->sums[column];
-    return total > 0 ? light / (total * size) : 0;
+    float all = l->sums[l->count];
+    return all > 0 ? (l->sums[item + 1] - l->sums[item]) / all : 0;
+}
+
+// Of a cell, 1/sr.
+static float density_of(const trace_sky *s, int row, int column)
+{
+    sky_line rows = line_of(s, s->rows), cells = line_of(s, row);
+    int width = (int)s->image->width;
+    int wide = pixel_of(column + 1, width, s->columns) - pixel_of(column, width, s->columns);
+    float size = (s->heights[row] - s->heights[row + 1]) * (2 * PI) * (float)wide / (float)width;
+    return chance(&rows, row) * chance(&cells, column) / size;
 }
 
 // Within a row heights are drawn evenly in the cosine, so that density over the sphere is
@@ -244,18 +262,25 @@ sky_look sky_sample(const trace_sky *s, vec2 u)
 {
     float across, down;
     sky_line rows = line_of(s, s->rows);
-    int row = find(&rows, u[1], &down);
+    int row = find(&rows, u[1], &down), width = (int)s->image->width;
     sky_line cells = line_of(s, row);
-    int column = find(&cells, u[0], &across);
+    int column = find(&cells, u[0], &across), left = pixel_of(column, width, s->columns);
+    int right = pixel_of(column + 1, width, s->columns);
+    float turn = ((float)left + across * (float)(right - left)) / (float)width;
     float y = mix(s->heights[row], s->heights[row + 1], down);
-    float r = sqrtf(max(1 - y * y, 0.0f)), turn = ((float)column + across) / (float)s->columns;
-    float phi = (turn - 0.5f) * 2 * PI;
+    float r = sqrtf(max(1 - y * y, 0.0f)), phi = (turn - 0.5f) * 2 * PI;
     vec2 uv = vec2(turn, angle(r, y) * INV_PI);
     return (sky_look) {
         .direction = world_from_sky(s, vec3(r * cosf(phi), y, r * sinf(phi))),
         .radiance = s->intensity * lookup(s->image, uv),
-        .density = density_of(s, &cells, row, column),
+        .density = density_of(s, row, column),
     };
+}
+
+static int pixel_at(float share, int pixels)
+{
+    int pixel = (int)(share * (float)pixels);
+    return pixel < 0 ? 0 : pixel < pixels ? pixel : pixels - 1;
 }
 
 sky_look sky_at(const trace_sky *s, vec3 direction)
@@ -263,12 +288,10 @@ sky_look sky_at(const trace_sky *s, vec3 direction)
     sky_look look = { .direction = direction };
     if (!s->image)
         return look;
+    int width = (int)s->image->width, height = (int)s->image->height;
     vec2 uv = uv_of(sky_from_world(s, direction));
-    int row = (int)(uv[1] * (float)s->rows), column = (int)(uv[0] * (float)s->columns);
-    row = row < s->rows ? row : s->rows - 1;
-    column = column < 0 ? 0 : column < s->columns ? column : s->columns - 1;
-    sky_line cells = line_of(s, row);
     look.radiance = s->intensity * lookup(s->image, uv);
-    look.density = density_of(s, &cells, row, column);
+    look.density = density_of(s, cell_of(pixel_at(uv[1], height), height, s->rows),
+                              cell_of(pixel_at(uv[0], width), width, s->columns));
     return look;
 }

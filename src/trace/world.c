@@ -192,7 +192,9 @@ static bool set_vertices(RTCGeometry g, const scene_mesh *mesh, const world_inst
 static RTCGeometry new_triangles(const world *w, const scene_mesh *mesh, const world_instance *i)
 {
     RTCGeometry g = rtcNewGeometry(w->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    if (!g || !set_vertices(g, mesh, i)) {
+    if (!g)
+        return NULL;
+    if (!set_vertices(g, mesh, i)) {
         rtcReleaseGeometry(g);
         return NULL;
     }
