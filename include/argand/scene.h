@@ -17,8 +17,9 @@ extern "C" {
 
 typedef struct ag_scene ag_scene;
 
-// Names of things inside one scene; 0 = none.  An id that the scene never gave out
-// is AG_ERROR_ARGUMENT.
+// Names of things inside one scene; 0 = none.  Those of each kind are counted in the order in
+// which they were added: ag_scene_light(scene, i, ...) asks for the light of id i + 1, and so of
+// each kind.  An id that the scene never gave out is AG_ERROR_ARGUMENT.
 typedef struct ag_texture {
     uint32_t id;
 } ag_texture;
@@ -183,6 +184,7 @@ typedef struct ag_material_desc {
     ag_texture_use emissive_texture;           // sRGB
     ag_texture_use specular_texture;           // A
     ag_texture_use specular_color_texture;     // sRGB
+    const char *name;                          // NULL -> none
 } ag_material_desc;
 
 // glTF's defaults: white, metallic 1, roughness 1, ior 1.5, everything else neutral;
@@ -194,6 +196,11 @@ AG_API ag_material_desc ag_material_default(void);
 // the scene, or a uv set above 1.
 AG_CHECK ag_status ag_scene_add_material(ag_scene *scene, const ag_material_desc *desc,
                                          ag_material *material);
+
+// Make another of a material that was added, for all instances that have it; checked as if added
+// anew.  The default one, of id 0, stays as it is.
+AG_CHECK ag_status ag_scene_set_material(ag_scene *scene, ag_material material,
+                                         const ag_material_desc *desc);
 
 // Triangles.  `normals` NULL -> flat (the vertices are split); `tangents` NULL ->
 // computed from the normals and uv set 0 as MikkTSpace does; the rest NULL -> zero,
@@ -223,6 +230,10 @@ AG_CHECK ag_status ag_scene_add_mesh(ag_scene *scene, const ag_mesh_desc *desc, 
 // not finite.
 AG_CHECK ag_status ag_scene_add_instance(ag_scene *scene, ag_mesh mesh, ag_material material,
                                          const float world[16], ag_instance *instance);
+
+// Give an instance a name; NULL takes it away.  Those of files have their nodes', or else their
+// meshes'.
+AG_CHECK ag_status ag_scene_name_instance(ag_scene *scene, ag_instance instance, const char *name);
 
 typedef enum ag_light_kind {
     AG_LIGHT_POINT = 0,
@@ -263,7 +274,8 @@ typedef struct ag_light_desc {
     // the light times the sum of these times 1, x, y, z, xy, yz, 3z^2 - 1, xz, x^2 - y^2.  A
     // sum over all lights that is negative counts as 0.  See ag_light_harmonics().
     float harmonics[9][3];
-    bool hidden; // its body is not seen, only its light
+    bool hidden;      // its body is not seen, only its light
+    const char *name; // NULL -> none
 } ag_light_desc;
 
 // Add a light; one of intensity 0 is dark.  Spheres, disks, rectangles, tubes and suns are
@@ -273,6 +285,9 @@ typedef struct ag_light_desc {
 // negative intensity, range, size or colour, a spot's cone that is not
 // 0 <= inner < outer <= pi/2, or a sun as large as the sky.
 AG_CHECK ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_light *light);
+
+// Make another of a light that was added, be it of another kind; checked as if added anew.
+AG_CHECK ag_status ag_scene_set_light(ag_scene *scene, ag_light light, const ag_light_desc *desc);
 
 // `harmonics` of a light from the radiance's coefficients L_00, L_1-1, L_10, L_11, L_2-2 .. L_22
 // (real spherical harmonics about y, z, x; Ramamoorthi & Hanrahan 2001, eq. 3), by their eq. 10.
@@ -336,12 +351,29 @@ typedef struct ag_extension_info {
 } ag_extension_info;
 AG_API bool ag_scene_extension(const ag_scene *scene, size_t index, ag_extension_info *info);
 
-// Light `index` (from 0) as it was added, defaults filled in and directions made unit; false
-// past the last.
+// In all of these `name` is borrowed, may be NULL, and lives until the thing gets another one or
+// the scene ends.
+
+// Light `index` (from 0) as it was added or last set, defaults filled in and directions made
+// unit; false past the last.
 AG_API bool ag_scene_light(const ag_scene *scene, size_t index, ag_light_desc *desc);
 
+// Material `index` (from 0; the default one is not among them) as it was added or last set,
+// clamped to its ranges; false past the last.
+AG_API bool ag_scene_material(const ag_scene *scene, size_t index, ag_material_desc *desc);
+
+typedef struct ag_instance_info {
+    ag_mesh mesh;
+    ag_material material; // 0: the default one
+    float world[16];
+    float bounds_min[3], bounds_max[3]; // m, world space
+    const char *name;
+} ag_instance_info;
+
+// Instance `index` (from 0); false past the last.
+AG_API bool ag_scene_instance(const ag_scene *scene, size_t index, ag_instance_info *info);
+
 // Camera `index` (from 0) as it was added, defaults filled in; false past the last.
-// `name` is borrowed: it lives as long as the scene, and may be NULL.
 AG_API bool ag_scene_camera(const ag_scene *scene, size_t index, ag_camera_desc *desc);
 
 // Where a camera should stand: at target + r (sin phi sin theta, cos phi, sin phi cos theta),

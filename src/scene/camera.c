@@ -5,8 +5,6 @@
 #include "scene/vector.h"
 
 #include <float.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const float default_fov_rad = 0.785398163397f; // 45 degrees
 static const float default_theta_rad = 0.6f, default_phi_rad = 1.25f;
@@ -41,13 +39,11 @@ ag_status ag_scene_add_camera(ag_scene *scene, const ag_camera_desc *desc, ag_ca
                         "of view below pi, and near below far.");
     ag_camera_desc made = *desc;
     fill_defaults(&made);
-    char *name = desc->name ? strdup(desc->name) : NULL;
-    if ((desc->name && !name) || !array_reserve(&scene->cameras, &scene->cameras_capacity,
-                                                scene->cameras_count + 1, sizeof *scene->cameras)) {
-        free(name);
+    made.name = NULL;
+    if (!array_reserve(&scene->cameras, &scene->cameras_capacity, scene->cameras_count + 1,
+                       sizeof *scene->cameras) ||
+        !name_set(&made.name, desc->name))
         return log_fail(&scene->log, AG_ERROR_MEMORY, "There is no memory for a camera.");
-    }
-    made.name = name;
     scene->cameras[scene->cameras_count++] = made;
     camera->id = (uint32_t)scene->cameras_count;
     scene->revision++;

@@ -16,6 +16,17 @@ static bool is_collapsed(const double world[16])
     return true;
 }
 
+static ag_status name_instance(const gltf_at *primitive, uint32_t index, ag_instance instance)
+{
+    gltf_at root = gltf_root(primitive->file), nodes = gltf_member(&root, "nodes");
+    gltf_at node = gltf_item(&nodes, index);
+    const char *name = NULL;
+    ag_status status = gltf_string(primitive->up->up, "name", &name);
+    if (!status)
+        status = gltf_string(&node, "name", &name);
+    return status ? status : ag_scene_name_instance(primitive->file->scene, instance, name);
+}
+
 static ag_status add_instance(const gltf_at *primitive, uint32_t index)
 {
     gltf_file *file = primitive->file;
@@ -37,7 +48,8 @@ static ag_status add_instance(const gltf_at *primitive, uint32_t index)
     if (material != GLTF_NONE)
         id = file->materials[material].material;
     ag_instance instance;
-    return ag_scene_add_instance(file->scene, mesh, id, posed ? NULL : world, &instance);
+    status = ag_scene_add_instance(file->scene, mesh, id, posed ? NULL : world, &instance);
+    return status ? status : name_instance(primitive, index, instance);
 }
 
 static ag_status add_mesh(gltf_file *file, const gltf_at *meshes, uint32_t node)

@@ -180,8 +180,13 @@ static ag_status add_light(gltf_file *file, uint32_t node, int which)
         return status;
     gltf_at lights = gltf_member(&extension, "lights");
     gltf_at at = gltf_item(&lights, file->nodes[node].light[which]);
+    gltf_at nodes = gltf_member(&root, "nodes"), node_at = gltf_item(&nodes, node);
     ag_light_desc desc = { .color = { 1.0f, 1.0f, 1.0f }, .intensity = e->intensity };
-    status = gltf_floats_in(&at, "color", 3, 0.0f, FLT_MAX, desc.color);
+    status = gltf_string(&node_at, "name", &desc.name);
+    if (!status)
+        status = gltf_string(&at, "name", &desc.name);
+    if (!status)
+        status = gltf_floats_in(&at, "color", 3, 0.0f, FLT_MAX, desc.color);
     if (!status)
         status = gltf_float_in(&at, "intensity", 0.0f, FLT_MAX, &desc.intensity);
     if (!status)

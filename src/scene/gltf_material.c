@@ -167,7 +167,9 @@ static ag_status read_material(const gltf_at *at, ag_material_desc *desc)
 {
     gltf_at unlit;
     *desc = ag_material_default();
-    ag_status status = read_metallic_roughness(at, desc);
+    ag_status status = gltf_string(at, "name", &desc->name);
+    if (!status)
+        status = read_metallic_roughness(at, desc);
     if (!status)
         status = read_surface(at, desc);
     if (!status)

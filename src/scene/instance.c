@@ -31,3 +31,27 @@ ag_status ag_scene_add_instance(ag_scene *scene, ag_mesh mesh, ag_material mater
     scene->revision++;
     return AG_OK;
 }
+
+ag_status ag_scene_name_instance(ag_scene *scene, ag_instance instance, const char *name)
+{
+    if (instance.id == 0 || instance.id > scene->instances_count)
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                        "Instance %u is to be named: the scene has 1 to %zu.", instance.id,
+                        scene->instances_count);
+    if (!name_set(&scene->instances[instance.id - 1].name, name))
+        return log_fail(&scene->log, AG_ERROR_MEMORY, "There is no memory for an instance's name.");
+    return AG_OK;
+}
+
+bool ag_scene_instance(const ag_scene *scene, size_t index, ag_instance_info *info)
+{
+    if (index >= scene->instances_count)
+        return false;
+    const scene_instance *instance = &scene->instances[index];
+    *info = (ag_instance_info) { .mesh = { instance->mesh + 1 },
+                                 .material = { instance->material },
+                                 .name = instance->name };
+    memcpy(info->world, instance->world, sizeof info->world);
+    instance_bounds(scene, instance, info->bounds_min, info->bounds_max);
+    return true;
+}

@@ -85,9 +85,9 @@ static void fill_defaults(ag_light_desc *d)
 
 // ---- Lights ------------------------------------------------------------------
 
-ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_light *light)
+// `*place` becomes what `desc` says, or stays as it is.
+static ag_status make(const ag_scene *scene, const ag_light_desc *desc, ag_light_desc *place)
 {
-    *light = (ag_light) { 0 };
     if ((unsigned)desc->kind > AG_LIGHT_HARMONICS || !numbers_are_sound(desc))
         return log_fail(&scene->log, AG_ERROR_ARGUMENT,
                         "A light has an unknown kind, a number that is not finite, or a negative "
@@ -97,12 +97,35 @@ ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_ligh
     ag_status status = check_angles(scene, &made);
     if (status)
         return status;
+    made.name = place->name;
+    if (!name_set(&made.name, desc->name))
+        return log_fail(&scene->log, AG_ERROR_MEMORY, "There is no memory for a light's name.");
+    *place = made;
+    return AG_OK;
+}
+
+ag_status ag_scene_add_light(ag_scene *scene, const ag_light_desc *desc, ag_light *light)
+{
+    *light = (ag_light) { 0 };
+    ag_light_desc made = { 0 };
     if (!array_reserve(&scene->lights, &scene->lights_capacity, scene->lights_count + 1,
                        sizeof *scene->lights))
         return log_fail(&scene->log, AG_ERROR_MEMORY, "There is no memory for a light.");
+    ag_status status = make(scene, desc, &made);
+    if (status)
+        return status;
     scene->lights[scene->lights_count++] = made;
     light->id = (uint32_t)scene->lights_count;
     return AG_OK;
+}
+
+ag_status ag_scene_set_light(ag_scene *scene, ag_light light, const ag_light_desc *desc)
+{
+    if (light.id == 0 || light.id > scene->lights_count)
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                        "Light %u is to be changed: the scene has 1 to %zu.", light.id,
+                        scene->lights_count);
+    return make(scene, desc, &scene->lights[light.id - 1]);
 }
 
 bool ag_scene_light(const ag_scene *scene, size_t index, ag_light_desc *desc)

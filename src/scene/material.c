@@ -151,21 +151,55 @@ static ag_status check(const ag_scene *scene, ag_material_desc *desc)
     return AG_OK;
 }
 
+// `*place` becomes what `desc` says, or stays as it is.
+static ag_status make(const ag_scene *scene, const ag_material_desc *desc, ag_material_desc *place)
+{
+    ag_material_desc made = *desc;
+    ag_status status = check(scene, &made);
+    if (status)
+        return status;
+    clamp_ranges(&made);
+    default_scales(&made);
+    made.name = place->name;
+    if (!name_set(&made.name, desc->name))
+        return log_fail(&scene->log, AG_ERROR_MEMORY, "There is no memory for a material's name.");
+    *place = made;
+    return AG_OK;
+}
+
 ag_status ag_scene_add_material(ag_scene *scene, const ag_material_desc *desc,
                                 ag_material *material)
 {
     *material = (ag_material) { 0 };
-    ag_material_desc made = *desc;
-    ag_status status = check(scene, &made);
-    if (status != AG_OK)
-        return status;
+    ag_material_desc made = { 0 };
     if (!array_reserve(&scene->materials, &scene->materials_capacity, scene->materials_count + 1,
                        sizeof *scene->materials))
         return log_fail(&scene->log, AG_ERROR_MEMORY, "There is no memory for a material.");
-    clamp_ranges(&made);
-    default_scales(&made);
+    ag_status status = make(scene, desc, &made);
+    if (status)
+        return status;
     material->id = (uint32_t)scene->materials_count;
     scene->materials[scene->materials_count++] = made;
     scene->revision++;
     return AG_OK;
+}
+
+ag_status ag_scene_set_material(ag_scene *scene, ag_material material, const ag_material_desc *desc)
+{
+    if (material.id == 0 || material.id >= scene->materials_count)
+        return log_fail(&scene->log, AG_ERROR_ARGUMENT,
+                        "Material %u is to be changed: the scene has 1 to %zu.", material.id,
+                        scene->materials_count - 1);
+    ag_status status = make(scene, desc, &scene->materials[material.id]);
+    if (!status)
+        scene->revision++;
+    return status;
+}
+
+bool ag_scene_material(const ag_scene *scene, size_t index, ag_material_desc *desc)
+{
+    if (index + 1 >= scene->materials_count)
+        return false;
+    *desc = scene->materials[index + 1];
+    return true;
 }

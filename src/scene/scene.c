@@ -83,13 +83,35 @@ void scene_rollback(ag_scene *scene, scene_mark mark)
         free(mesh->indices);
     }
     while (scene->cameras_count > mark.cameras)
-        free((char *)(uintptr_t)scene->cameras[--scene->cameras_count].name);
+        name_free(scene->cameras[--scene->cameras_count].name);
+    while (scene->materials_count > mark.materials)
+        name_free(scene->materials[--scene->materials_count].name);
+    while (scene->instances_count > mark.instances)
+        name_free(scene->instances[--scene->instances_count].name);
+    while (scene->lights_count > mark.lights)
+        name_free(scene->lights[--scene->lights_count].name);
     scene->textures_count = mark.textures;
-    scene->materials_count = mark.materials;
-    scene->instances_count = mark.instances;
-    scene->lights_count = mark.lights;
     scene->extensions_count = mark.extensions;
     scene->revision++;
+}
+
+// ---- Names -----------------------------------------------------------------
+
+bool name_set(const char **name, const char *text)
+{
+    if (text && *name && strcmp(text, *name) == 0)
+        return true;
+    char *copy = text ? strdup(text) : NULL;
+    if (text && !copy)
+        return false;
+    name_free(*name);
+    *name = copy;
+    return true;
+}
+
+void name_free(const char *name)
+{
+    free((char *)(uintptr_t)name);
 }
 
 // ---- Bounds ----------------------------------------------------------------
@@ -116,6 +138,16 @@ static void include_instance(const ag_scene *scene, const scene_instance *instan
         min[row] = fminf(min[row], clamp_to_float(low));
         max[row] = fmaxf(max[row], clamp_to_float(high));
     }
+}
+
+void instance_bounds(const ag_scene *scene, const scene_instance *instance, float min[3],
+                     float max[3])
+{
+    for (int i = 0; i < 3; i++) {
+        min[i] = FLT_MAX;
+        max[i] = -FLT_MAX;
+    }
+    include_instance(scene, instance, min, max);
 }
 
 bool scene_bounds(const ag_scene *scene, float min[3], float max[3])

@@ -32,6 +32,7 @@ typedef struct scene_instance {
     uint32_t mesh;     // index
     uint32_t material; // index; the scene's materials[0] is the default one
     float world[16];   // column major
+    const char *name;  // owned; NULL -> none
 } scene_instance;
 
 typedef struct scene_extension {
@@ -47,10 +48,10 @@ struct ag_scene {
     ag_log log;
     SCENE_ARRAY(ag_image *, images); // owned; each once however many textures use it
     SCENE_ARRAY(scene_texture, textures);
-    SCENE_ARRAY(ag_material_desc, materials); // [0] is the default material, id 0
+    SCENE_ARRAY(ag_material_desc, materials); // [0] is the default material, id 0; names owned
     SCENE_ARRAY(scene_mesh, meshes);
     SCENE_ARRAY(scene_instance, instances);
-    SCENE_ARRAY(ag_light_desc, lights);   // defaults filled in, direction normalised
+    SCENE_ARRAY(ag_light_desc, lights);   // defaults filled in, direction normalised, name owned
     SCENE_ARRAY(ag_camera_desc, cameras); // defaults filled in, name owned
     SCENE_ARRAY(scene_extension, extensions);
     ag_environment_kind environment_kind;
@@ -74,10 +75,17 @@ void scene_environment_close(const ag_scene *scene, const ag_image *image); // N
 AG_CHECK ag_status scene_adopt_texture(ag_scene *scene, ag_image *image,
                                        const ag_texture_desc *desc, ag_texture *texture);
 
+// Make the owned `*name` a copy of `text` (both may be NULL); left alone where it says that
+// already.  False without memory.
+bool name_set(const char **name, const char *text);
+void name_free(const char *name); // NULL is allowed
+
 // Whether a camera's numbers are finite and in their ranges.
 bool scene_camera_is_sound(const ag_camera_desc *desc);
 
-// World-space bounds of everything visible; false when there is nothing.
+// World-space bounds of an instance, and of everything visible; false when there is nothing.
+void instance_bounds(const ag_scene *scene, const scene_instance *instance, float min[3],
+                     float max[3]);
 bool scene_bounds(const ag_scene *scene, float min[3], float max[3]);
 
 // A material's choices as the `model` of physics/surface.glsl.

@@ -211,6 +211,37 @@ static void bad_cameras(void **state)
               kit_json(",'scenes':[{'nodes':[0]}],'cameras':[%s]", cases[i].camera));
 }
 
+// The nearest name counts: a node's before its mesh's, a light's own before its node's.
+static void names(void **state)
+{
+    kit *k = *state;
+    kit_loads(
+        k,
+        kit_json("{'asset':{'version':'2.0'},'scenes':[{'nodes':[0,1,2,3]}],"
+                 "'nodes':[{'mesh':0,'name':'wheel'},{'mesh':0},"
+                 "{'name':'node','extensions':{'KHR_lights_punctual':{'light':0}}},"
+                 "{'name':'node','extensions':{'KHR_lights_punctual':{'light':1}}}],"
+                 "'buffers':[{'byteLength':36}],'bufferViews':[{'buffer':0,'byteLength':36}],"
+                 "'accessors':[{'bufferView':0,'componentType':5126,'type':'VEC3','count':3}],"
+                 "'materials':[{'name':'rubber'}],'meshes':[{'name':'round',"
+                 "'primitives':[{'attributes':{'POSITION':0},'material':0}]}],"
+                 "'extensionsUsed':['KHR_lights_punctual'],'extensions':{'KHR_lights_punctual':"
+                 "{'lights':[{'type':'point','name':'lamp'},{'type':'point'}]}}}"),
+        kit_triangle, 36, 0);
+    const char *const instances[] = { "wheel", "round" }, *const lights[] = { "lamp", "node" };
+    for (size_t i = 0; i < 2; i++) {
+        ag_instance_info instance;
+        ag_light_desc light;
+        assert_true(ag_scene_instance(k->scene, i, &instance));
+        assert_true(ag_scene_light(k->scene, i, &light));
+        assert_string_equal(instance.name, instances[i]);
+        assert_string_equal(light.name, lights[i]);
+    }
+    ag_material_desc material;
+    assert_true(ag_scene_material(k->scene, 0, &material));
+    assert_string_equal(material.name, "rubber");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -222,6 +253,7 @@ int main(void)
         cmocka_unit_test(ten_thousand_nodes),
         cmocka_unit_test(cameras),
         cmocka_unit_test(bad_cameras),
+        cmocka_unit_test(names),
     };
     return cmocka_run_group_tests(tests, kit_setup, kit_teardown);
 }
