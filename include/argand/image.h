@@ -39,9 +39,19 @@ AG_CHECK ag_status ag_image_load(const ag_log *log, const char *path, ag_image *
 AG_CHECK ag_status ag_image_load_memory(const ag_log *log, const char *name, const void *data,
                                         size_t size, ag_image **image);
 
+// A fact that is stored with an image: in PNG as a tEXt or iTXt chunk, in OpenEXR as an attribute
+// of the header, a string or a float.  The other formats leave it out.
+typedef struct ag_image_note {
+    const char *key;  // 1 to 31 printable ASCII characters, spaces only single and between others
+    const char *text; // UTF-8; NULL -> `number`
+    double number;
+} ag_image_note;
+
 typedef struct ag_image_save_options {
-    int quality;     // JPEG and WebP, 1 to 100; 0 -> 92
-    int compression; // PNG, 1 (fast) to 9 (small); 0 -> 2
+    int quality;                // JPEG and WebP, 1 to 100; 0 -> 92
+    int compression;            // PNG, 1 (fast) to 9 (small); 0 -> 2
+    const ag_image_note *notes; // each key once
+    size_t note_count;
 } ag_image_save_options;
 
 // Write an image; the name's ending chooses .png .jpg .jpeg .webp (from RGBA8)
@@ -50,8 +60,8 @@ typedef struct ag_image_save_options {
 // composited over white, as a browser would.  OpenEXR keeps half floats where they
 // lose nothing, else floats, and colours multiplied by alpha, as it demands.  The
 // file appears whole or not at all: it is written beside its place and renamed.
-// NULL options -> defaults.  AG_ERROR_ARGUMENT on an unknown ending or an option out
-// of range, AG_ERROR_UNSUPPORTED where the format cannot hold the image's size,
+// NULL options -> defaults.  AG_ERROR_ARGUMENT on an unknown ending, an option out of
+// range or an unsound note, AG_ERROR_UNSUPPORTED where the format cannot hold the image's size,
 // AG_ERROR_FILE where it cannot be written.
 AG_CHECK ag_status ag_image_save(const ag_log *log, const ag_image *image, const char *path,
                                  const ag_image_save_options *options);
@@ -75,7 +85,8 @@ typedef struct ag_image_layer {
 // AG_ERROR_ARGUMENT unless the path ends in .exr, there is a layer, sizes agree, all are RGBA32F,
 // names differ and channels are one to four different letters.
 AG_CHECK ag_status ag_image_save_layers(const ag_log *log, const ag_image_layer *layers,
-                                        size_t count, const char *path);
+                                        size_t count, const char *path,
+                                        const ag_image_save_options *options);
 
 AG_API uint32_t ag_image_width(const ag_image *image);
 AG_API uint32_t ag_image_height(const ag_image *image);

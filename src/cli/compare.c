@@ -81,7 +81,7 @@ static ag_status measure(work *w)
     ag_status status = ag_image_compare(&log, w->pictures[0], w->pictures[1], &how, &w->difference,
                                         w->request->output ? &w->heat : NULL);
     if (!status && w->heat)
-        status = output_save(&w->console, w->heat, w->request->output);
+        status = output_save(&w->console, w->heat, 0, w->request->output);
     return status;
 }
 

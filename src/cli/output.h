@@ -14,10 +14,11 @@ typedef enum output_verdict {
 // make for it.
 output_verdict output_check(console *console, const char *path, ag_format *format);
 
-// Write the picture.  An interrupt meanwhile waits until the file is whole.
-ag_status output_save(console *console, const ag_image *image, const char *path);
+// Write the picture, and into PNG and OpenEXR files the exposure that it has been made with (a
+// linear factor; 0 = it has none).  An interrupt meanwhile waits until the file is whole.
+ag_status output_save(console *console, const ag_image *image, float exposure, const char *path);
 ag_status output_save_layers(console *console, const ag_image_layer *layers, size_t count,
-                             const char *path);
+                             float exposure, const char *path);
 
 // Whether a page can go into `folder`, which may have to be made; says what is wrong.
 bool output_check_folder(console *console, const char *folder);

@@ -12,6 +12,7 @@ typedef struct work {
     ag_format format;
     shot shot;
     ag_image *picture;
+    float exposure;            // that it was made with
     ag_image *aovs[AOV_COUNT]; // those that are wanted
     reference_report report;   // and the reference itself
 } work;
@@ -25,6 +26,7 @@ static ag_status trace(work *w)
     if (status)
         return status;
     picture.parts = r->parts;
+    w->exposure = picture.exposure > 0 ? picture.exposure : ag_scene_exposure(w->shot.scene);
     ag_reference_options options = {
         .max_bounces = r->max_bounces,
         .direct_only = r->bounces_given && r->max_bounces == 0,
@@ -80,8 +82,8 @@ static ag_status save(work *w)
     ag_image_layer layers[AOV_COUNT + 1];
     size_t count = list_layers(w, layers);
     const char *path = w->request->shot.output;
-    ag_status status = count > 1 ? output_save_layers(&w->console, layers, count, path)
-                                 : output_save(&w->console, w->picture, path);
+    ag_status status = count > 1 ? output_save_layers(&w->console, layers, count, w->exposure, path)
+                                 : output_save(&w->console, w->picture, w->exposure, path);
     w->report.encode_ms = now_ms() - start;
     return status;
 }

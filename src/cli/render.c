@@ -21,6 +21,7 @@ typedef struct work {
     ag_renderer *renderer; // made by `opening`, or
     tracing tracing;       // where there is no device
     ag_image *picture;
+    float exposure; // that it was made with
     render_report report;
 } work;
 
@@ -89,6 +90,7 @@ static ag_status render(work *w)
     ag_status status = shot_compose(&w->shot, w->format, &camera, &options);
     if (status)
         return status;
+    w->exposure = options.exposure > 0 ? options.exposure : ag_scene_exposure(w->shot.scene);
     return w->renderer ? ag_renderer_render(w->renderer, w->shot.scene, &camera, &options,
                                             &w->picture, &w->report.stats)
                        : trace(w, &camera, &options);
@@ -98,7 +100,7 @@ static ag_status save(work *w)
 {
     console_stage(&w->console, "encode", 0);
     double start = now_ms();
-    ag_status status = output_save(&w->console, w->picture, w->request->output);
+    ag_status status = output_save(&w->console, w->picture, w->exposure, w->request->output);
     w->report.encode_ms = now_ms() - start;
     return status;
 }

@@ -24,9 +24,10 @@ AG_CHECK image_encoder image_encode_webp;
 AG_CHECK image_encoder image_encode_hdr;
 AG_CHECK image_encoder image_encode_exr;
 
-// RGBA32F images of one size as the channels of one file; their names have been checked.
+// RGBA32F images of one size as the channels of one file; names and notes have been checked.
 AG_CHECK ag_status image_encode_exr_layers(const ag_log *log, const char *name,
                                            const ag_image_layer *layers, size_t count,
+                                           const ag_image_save_options *options,
                                            file_writer *out);
 
 // A header may claim any size.  False, before any memory is taken, when `bytes` of a

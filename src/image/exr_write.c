@@ -143,7 +143,19 @@ static exr_result_t add_channels(exr_context_t exr, int part, const layer *l)
     return code;
 }
 
-static exr_result_t begin(exr_context_t exr, const layers *all)
+static exr_result_t add_notes(exr_context_t exr, int part, const ag_image_save_options *options)
+{
+    exr_result_t code = EXR_ERR_SUCCESS;
+    for (size_t i = 0; i < options->note_count && !code; i++) {
+        const ag_image_note *note = &options->notes[i];
+        code = note->text ? exr_attr_set_string(exr, part, note->key, note->text)
+                          : exr_attr_set_float(exr, part, note->key, (float)note->number);
+    }
+    return code;
+}
+
+static exr_result_t begin(exr_context_t exr, const layers *all,
+                          const ag_image_save_options *options)
 {
     int part;
     const ag_image *first = all->items[0].image;
@@ -157,6 +169,8 @@ static exr_result_t begin(exr_context_t exr, const layers *all)
                                                0.15f, 0.06f, 0.3127f, 0.3290f };
     if (!code)
         code = exr_attr_set_chromaticities(exr, part, "chromaticities", &rec709);
+    if (!code)
+        code = add_notes(exr, part, options);
     return code ? code : exr_write_header(exr);
 }
 
@@ -211,7 +225,8 @@ static exr_result_t encode_rows(exr_context_t exr, const layers *all)
     return code;
 }
 
-static exr_result_t encode(const layers *all, const char *name, buffer *out)
+static exr_result_t encode(const layers *all, const char *name,
+                           const ag_image_save_options *options, buffer *out)
 {
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
     settings.error_handler_fn = ignore_reason;
@@ -221,7 +236,7 @@ static exr_result_t encode(const layers *all, const char *name, buffer *out)
     exr_context_t exr = NULL;
     exr_result_t code = exr_start_write(&exr, name, EXR_WRITE_FILE_DIRECTLY, &settings);
     if (!code)
-        code = begin(exr, all);
+        code = begin(exr, all, options);
     if (!code)
         code = encode_rows(exr, all);
     exr_result_t finished = exr ? exr_finish(&exr) : EXR_ERR_SUCCESS;
@@ -229,13 +244,13 @@ static exr_result_t encode(const layers *all, const char *name, buffer *out)
 }
 
 static exr_result_t encode_all(const char *name, const ag_image_layer *from, size_t count,
-                               buffer *out)
+                               const ag_image_save_options *options, buffer *out)
 {
     layers all = { .items = calloc(count, sizeof *all.items), .count = count };
     bool enough = all.items;
     for (size_t i = 0; i < count && enough; i++)
         enough = layer_init(&all.items[i], &from[i]);
-    exr_result_t code = enough ? encode(&all, name, out) : EXR_ERR_OUT_OF_MEMORY;
+    exr_result_t code = enough ? encode(&all, name, options, out) : EXR_ERR_OUT_OF_MEMORY;
     for (size_t i = 0; i < count && all.items; i++)
         layer_finish(&all.items[i]);
     free(all.items);
@@ -243,7 +258,8 @@ static exr_result_t encode_all(const char *name, const ag_image_layer *from, siz
 }
 
 ag_status image_encode_exr_layers(const ag_log *log, const char *name, const ag_image_layer *from,
-                                  size_t count, file_writer *out)
+                                  size_t count, const ag_image_save_options *options,
+                                  file_writer *out)
 {
     uint32_t width = from[0].image->width;
     if (width > 1 << 24) // rows of 16 lines are counted in 32 bits by the library
@@ -251,10 +267,17 @@ ag_status image_encode_exr_layers(const ag_log *log, const char *name, const ag_
                         "%s: an OpenEXR image is at most 2^24 pixels wide, not %u; choose .hdr",
                         name, width);
     buffer bytes = { 0 };
-    exr_result_t code = encode_all(name, from, count, &bytes);
-    ag_status status = code ? log_fail(log, AG_ERROR_MEMORY, "%s: cannot be written as OpenEXR: %s",
-                                       name, exr_get_default_error_message(code))
-                            : file_writer_put(out, bytes.bytes, bytes.size);
+    exr_result_t code = encode_all(name, from, count, options, &bytes);
+    ag_status status;
+    if (code == EXR_ERR_ATTR_TYPE_MISMATCH) // the only one that is not memory's
+        status =
+            log_fail(log, AG_ERROR_ARGUMENT,
+                     "%s: a note has the key of an attribute that every OpenEXR file has", name);
+    else if (code)
+        status = log_fail(log, AG_ERROR_MEMORY, "%s: cannot be written as OpenEXR: %s", name,
+                          exr_get_default_error_message(code));
+    else
+        status = file_writer_put(out, bytes.bytes, bytes.size);
     free(bytes.bytes);
     return status;
 }
@@ -262,6 +285,6 @@ ag_status image_encode_exr_layers(const ag_log *log, const char *name, const ag_
 ag_status image_encode_exr(const ag_log *log, const char *name, const ag_image *image,
                            const ag_image_save_options *options, file_writer *out)
 {
-    (void)options;
-    return image_encode_exr_layers(log, name, &(ag_image_layer) { .image = image }, 1, out);
+    return image_encode_exr_layers(log, name, &(ag_image_layer) { .image = image }, 1, options,
+                                   out);
 }

@@ -2,6 +2,7 @@
 #include "image/codec.h"
 
 #include "base/log.h"
+#include "image/notes.h"
 
 #include <string.h>
 #include <strings.h>
@@ -76,15 +77,18 @@ static ag_status check(const ag_log *log, const ag_image_layer *layers, size_t c
 }
 
 ag_status ag_image_save_layers(const ag_log *log, const ag_image_layer *layers, size_t count,
-                               const char *path)
+                               const char *path, const ag_image_save_options *options)
 {
+    ag_image_save_options o = options ? *options : (ag_image_save_options) { 0 };
     ag_status status = check(log, layers, count, path);
+    if (!status)
+        status = notes_check(log, path, o.notes, o.note_count);
     file_writer *writer;
     if (!status)
         status = file_writer_open(log, path, &writer);
     if (status)
         return status;
-    status = image_encode_exr_layers(log, path, layers, count, writer);
+    status = image_encode_exr_layers(log, path, layers, count, &o, writer);
     if (!status)
         return file_writer_commit(writer);
     file_writer_abandon(writer);

@@ -25,6 +25,8 @@ typedef struct band {
 } band;
 
 typedef struct encoder {
+    const ag_log *log;
+    const char *name;
     const ag_image *image;
     size_t channels;     // 3 or 4
     int filter;          // PNG's number: 2 Up, 4 Paeth
@@ -190,6 +192,17 @@ static ag_status put_begin(const encoder *e, file_writer *out)
     return file_writer_put(out, bytes, sizeof bytes);
 }
 
+static ag_status put_note(const encoder *e, const note_chunk *note, file_writer *out)
+{
+    uint8_t *chunk = malloc(note->size + 12);
+    if (!chunk)
+        return log_fail(e->log, AG_ERROR_MEMORY, "%s: no memory to write it", e->name);
+    memcpy(chunk + 8, note->data, note->size);
+    ag_status status = file_writer_put(out, chunk, finish_chunk(e, chunk, note->type, note->size));
+    free(chunk);
+    return status;
+}
+
 static ag_status put_bands(encoder *e, uint32_t count, file_writer *out, uint32_t *adler)
 {
     for (e->first_band = 0; e->first_band < count; e->first_band += BANDS) {
@@ -217,11 +230,13 @@ static ag_status put_end(const encoder *e, uint32_t adler, file_writer *out)
 }
 
 ag_status png_write_fast(const ag_log *log, const char *name, const ag_image *image, bool opaque,
-                         int filter, file_writer *out)
+                         int filter, const note_chunk *notes, size_t note_count, file_writer *out)
 {
     encoder *e = calloc(1, sizeof *e);
     if (!e)
         return log_fail(log, AG_ERROR_MEMORY, "%s: no memory to write it", name);
+    e->log = log;
+    e->name = name;
     e->image = image;
     e->channels = opaque ? 3 : 4;
     e->filter = filter;
@@ -234,6 +249,8 @@ ag_status png_write_fast(const ag_log *log, const char *name, const ag_image *im
         status = log_fail(log, AG_ERROR_MEMORY, "%s: no memory to write it", name);
     if (!status)
         status = put_begin(e, out);
+    for (size_t i = 0; i < note_count && !status; i++)
+        status = put_note(e, &notes[i], out);
     if (!status)
         status = put_bands(e, count, out, &adler);
     if (!status)

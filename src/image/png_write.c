@@ -5,6 +5,7 @@
 
 #include <spng.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct sink {
     file_writer *out;
@@ -38,6 +39,19 @@ static int begin(spng_ctx *png, const ag_image *image, bool opaque, int compress
     return error;
 }
 
+// The library looks into `room`, one for each note, until all is written.
+static int set_notes(spng_ctx *png, const note_chunk *notes, size_t count,
+                     struct spng_unknown_chunk *room)
+{
+    for (size_t i = 0; i < count; i++) {
+        memcpy(room[i].type, notes[i].type, 4);
+        room[i].data = notes[i].data;
+        room[i].length = notes[i].size;
+        room[i].location = SPNG_AFTER_IHDR;
+    }
+    return count ? spng_set_unknown_chunks(png, room, (uint32_t)count) : 0;
+}
+
 static void drop_alpha(const uint8_t *in, uint8_t *out, size_t pixels)
 {
     for (size_t i = 0; i < pixels; i++, in += 4, out += 3) {
@@ -64,16 +78,21 @@ static int encode_rows(spng_ctx *png, const ag_image *image, bool opaque)
 }
 
 static ag_status write_small(const ag_log *log, const char *name, const ag_image *image,
-                             bool opaque, int compression, file_writer *out)
+                             bool opaque, const ag_image_save_options *options,
+                             const note_chunk *notes, file_writer *out)
 {
     sink to = { out, AG_OK };
-    spng_ctx *png = spng_ctx_new(SPNG_CTX_ENCODER);
+    struct spng_unknown_chunk *room = calloc(options->note_count + 1, sizeof *room);
+    spng_ctx *png = room ? spng_ctx_new(SPNG_CTX_ENCODER) : NULL;
     int error = png ? spng_set_png_stream(png, put, &to) : SPNG_EMEM;
     if (!error)
-        error = begin(png, image, opaque, compression);
+        error = set_notes(png, notes, options->note_count, room);
+    if (!error)
+        error = begin(png, image, opaque, options->compression);
     if (!error)
         error = encode_rows(png, image, opaque);
     spng_ctx_free(png);
+    free(room);
     if (to.status)
         return to.status;
     if (error)
@@ -88,7 +107,15 @@ ag_status image_encode_png(const ag_log *log, const char *name, const ag_image *
                            const ag_image_save_options *options, file_writer *out)
 {
     bool opaque = image_is_opaque(image);
+    note_chunk *notes = note_chunks_create(options->notes, options->note_count);
+    if (!notes)
+        return log_fail(log, AG_ERROR_MEMORY, "%s: no memory to write it", name);
+    ag_status status;
     if (options->compression <= 2 && image->width <= PNG_FAST_WIDTH_MAX)
-        return png_write_fast(log, name, image, opaque, options->compression == 1 ? 2 : 4, out);
-    return write_small(log, name, image, opaque, options->compression, out);
+        status = png_write_fast(log, name, image, opaque, options->compression == 1 ? 2 : 4, notes,
+                                options->note_count, out);
+    else
+        status = write_small(log, name, image, opaque, options, notes, out);
+    note_chunks_destroy(notes, options->note_count);
+    return status;
 }

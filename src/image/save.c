@@ -2,6 +2,7 @@
 #include "image/codec.h"
 
 #include "base/log.h"
+#include "image/notes.h"
 
 #include <string.h>
 #include <strings.h>
@@ -81,7 +82,7 @@ static ag_status check(const ag_log *log, const char *path, ag_image_save_option
         return log_fail(log, AG_ERROR_ARGUMENT,
                         "%s: quality %d (1 to 100) or compression %d (1 to 9) is out of range",
                         path, o->quality, o->compression);
-    return AG_OK;
+    return notes_check(log, path, o->notes, o->note_count);
 }
 
 ag_status ag_image_save(const ag_log *log, const ag_image *image, const char *path,

@@ -30,6 +30,21 @@ expect() {
     [ "$(wc -l <err)" -eq 1 ] || fail "not one line: argand $*"
 }
 
+# noted FILE KEY VALUE...: what a picture's file says of itself; numbers to five digits.
+noted() {
+    "$root/tests/cli/notes.py" "$1" >notes || fail "$1 is not sound"
+    file=$1
+    shift
+    while [ $# -gt 0 ]; do
+        awk -v key="$1" -v value="$2" '
+            $1 == key { $1 = ""; sub(/^ /, ""); d = $0 - value
+                        found = $0 == value || (value + 0 && d * d < 1e-10 * value * value) }
+            END { exit !found }' notes || fail "$file: no note $1 $2, but: $(cat notes)"
+        shift 2
+    done
+    rm notes
+}
+
 # nothing_left: no picture and no temporary file lies about.
 nothing_left() {
     left=$(ls -A | grep -vx -e out -e err -e log || true)

@@ -100,6 +100,18 @@ done
 "$argand" compare plain.exr x.exr --max-flip 0 >out 2>err || fail "layers change the picture"
 rm ./*.exr
 
+# The file says how it was exposed.  1.2 * 2^8 nit come out as 1.
+version=$("$argand" --version | awk '{ print $NF; exit }')
+for options in "-o x.png" "-o x.exr" "-o x.exr --aov depth"; do
+    "$argand" reference "$triangle" $options $small --ev100 8 >out || fail "--ev100 8"
+    noted $(echo "$options" | cut -d' ' -f2) Software "Argand $version" ev100 8 whiteLuminance 307.2
+done
+"$argand" reference "$triangle" -o x.png $small --exposure 1 >out || fail "--exposure 1"
+noted x.png ev100 -0.263034
+"$argand" reference demo:specular -o x.png $small >out || fail "demo:specular"
+noted x.png ev100 -1.4157417 # 8 at 683 lm/W
+rm x.png x.exr
+
 # What makes no sense.
 bad() {
     text=$1

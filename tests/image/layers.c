@@ -138,7 +138,7 @@ static void test_layers(void **state)
                                       { "depth", depth, "Z" },
                                       { "cut", normal, NULL },
                                       { "albedo", depth, "RGB" } };
-    assert_int_equal(ag_image_save_layers(NULL, layers, 5, path), AG_OK);
+    assert_int_equal(ag_image_save_layers(NULL, layers, 5, path, NULL), AG_OK);
     channels c = open_channels(path);
     // As OpenEXR wants them: in the order of their bytes.
     static const char *const names[] = { "B",        "G",        "R",        "albedo.B", "albedo.G",
@@ -169,7 +169,7 @@ static void test_transparent(void **state)
     const char *path = *state;
     ag_image *picture = make(false, false);
     const ag_image_layer layers[] = { { "z", picture, "Z" }, { "", picture, "RGBA" } };
-    assert_int_equal(ag_image_save_layers(NULL, layers, 2, path), AG_OK);
+    assert_int_equal(ag_image_save_layers(NULL, layers, 2, path, NULL), AG_OK);
     ag_image *back;
     assert_int_equal(ag_image_load(NULL, path, &back), AG_OK);
     const float *p = picture->pixels, *q = back->pixels;
@@ -185,7 +185,7 @@ static void refused(const ag_image_layer *layers, size_t count, const char *to, 
 {
     kept_log kept;
     ag_log log = log_that_keeps(&kept);
-    assert_int_equal(ag_image_save_layers(&log, layers, count, to), AG_ERROR_ARGUMENT);
+    assert_int_equal(ag_image_save_layers(&log, layers, count, to, NULL), AG_ERROR_ARGUMENT);
     assert_int_equal(kept.count, 1);
     assert_non_null(strstr(kept.text, text));
     assert_int_equal(access(to, F_OK), -1);
@@ -215,7 +215,7 @@ static void test_refused(void **state)
         refused((ag_image_layer[]) { { "b", floats, wrong[i] } }, 1, path,
                 "not one to four different letters");
     ag_image_layer longest = { "abcdefghijklmnopqrstuvwxyz123", floats, "Z" };
-    assert_int_equal(ag_image_save_layers(NULL, &longest, 1, path), AG_OK);
+    assert_int_equal(ag_image_save_layers(NULL, &longest, 1, path, NULL), AG_OK);
     ag_image_destroy(floats);
     ag_image_destroy(bytes);
     ag_image_destroy(small);
