@@ -2,6 +2,8 @@
 #include "canvas.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <string.h>
 
 static uint8_t byte(float value)
 {
@@ -43,6 +45,22 @@ static uint32_t inside(float at, uint32_t end)
     return at > 0.0f ? (uint32_t)fminf(at, (float)end) : 0;
 }
 
+// Pixels that are all covered as much; neighbours are mostly equal, and mixed once.
+static void fill_span(uint8_t *pixel, uint32_t count, float cover, color over)
+{
+    uint32_t before = 0, mixed = 0, now;
+    for (uint32_t i = 0; i < count; i++, pixel += 4) {
+        memcpy(&now, pixel, 4);
+        if (i == 0 || now != before) {
+            mix(pixel, over, cover);
+            memcpy(&mixed, pixel, 4);
+        } else {
+            memcpy(pixel, &mixed, 4);
+        }
+        before = now;
+    }
+}
+
 void canvas_fill(const canvas *c, box shape, float radius, color over)
 {
     if (!(shape.width > 0.0f && shape.height > 0.0f))
@@ -53,9 +71,20 @@ void canvas_fill(const canvas *c, box shape, float radius, color over)
     uint32_t bottom = inside(shape.y + shape.height + 2.0f, c->height);
     for (uint32_t y = top; y < bottom; y++) {
         uint8_t *row = c->pixels + 4 * (size_t)y * c->width;
-        for (uint32_t x = left; x < right; x++)
-            mix(row + 4 * (size_t)x, over,
-                coverage(&shape, radius, (float)x + 0.5f, (float)y + 0.5f));
+        float at = (float)y + 0.5f;
+        bool round = at < shape.y + radius || at > shape.y + shape.height - radius;
+        float side = (round ? radius : 0.0f) + 1.0f;
+        uint32_t from = inside(shape.x + side, c->width);
+        uint32_t to = inside(shape.x + shape.width - side, c->width);
+        for (uint32_t x = left; x < right; x++) {
+            if (x == from && to > from) {
+                float cover = coverage(&shape, radius, (float)x + 0.5f, at);
+                fill_span(row + 4 * (size_t)x, to - from, cover, over);
+                x = to;
+            }
+            if (x < right)
+                mix(row + 4 * (size_t)x, over, coverage(&shape, radius, (float)x + 0.5f, at));
+        }
     }
 }
 
