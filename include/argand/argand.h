@@ -4,6 +4,7 @@
 
 #include <argand/base.h>
 #include <argand/compare.h>
+#include <argand/eye.h>
 #include <argand/image.h>
 #include <argand/metal.h>
 #include <argand/reference.h>

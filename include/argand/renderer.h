@@ -124,6 +124,8 @@ typedef struct ag_render_options {
     ag_background background;
     float background_color[3]; // sRGB-coded, shown as it is, not exposed
     float exposure;            // linear factor; 0 -> ag_scene_exposure()
+    float white_balance_k;     // of the light that comes out white, 1667 to 25000 (eye.h); 0 -> off
+    float white_balance_tint;  // how much greener that light is, -150 to 150
     uint32_t parts;            // ag_part, or-ed; 0 -> all
     ag_light light;            // AG_PART_LIGHTS is this one alone; 0 -> all
     ag_progress progress;      // stage "render"

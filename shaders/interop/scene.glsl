@@ -90,9 +90,8 @@ STRUCT_BEGIN(gpu_frame)
     float3 ray_center;
     float footprint; // of a sample: 1 = the whole pixel; less where frames are summed
     float3 ray_x;
-    float exposure; // linear factor, the environment's intensity excluded
-    float3 ray_y;
     float environment_intensity;
+    float3 ray_y;
     float environment_cos; // of the environment's rotation about +Y
     float environment_sin;
     float environment_mips; // levels of the prefiltered cube
@@ -110,6 +109,7 @@ STRUCT_BEGIN(gpu_frame)
     // Factors of a picture's parts: what shines into the eye itself; bases and lobes of surfaces
     // under the environment, its intensity included.
     float seen, environment_base, environment_lobe;
+    float3 red, green, blue; // what a unit of light of each channel is in the picture
 STRUCT_END(gpu_frame)
 
 // Read as a vertex's attributes.
@@ -200,7 +200,7 @@ STRUCT_BEGIN(gpu_list)
 STRUCT_END(gpu_list)
 
 #ifndef GL_core_profile
-_Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 16 + 2 * 9 * 12 + 20 + 8 + 16 + 8 + 8 + 12,
+_Static_assert(sizeof(gpu_frame) == 64 + 4 * 16 + 12 + 2 * 9 * 12 + 20 + 8 + 16 + 8 + 8 + 12 + 36,
                "gpu_frame");
 _Static_assert(sizeof(gpu_light) == 5 * 16 + 12, "gpu_light");
 _Static_assert(sizeof(gpu_instance) == 48, "gpu_instance");

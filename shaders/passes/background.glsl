@@ -44,7 +44,7 @@ vec4 background_at(vec2 clip)
     vec3 color = ENVIRONMENT != 0u ? environment_at(direction_at(clip)) : vec3(0.0);
     if ((GROUPS >> GPU_LIGHTS_CAP & 1u) != 0u)
         color = behind_suns(clip, color);
-    color *= frame.seen * frame.exposure;
+    color = exposed(frame.seen * color);
     if (TONE != GPU_TONE_LINEAR)
         color = display(TONE, color);
     return vec4(min(color, 60000.0), 1.0);

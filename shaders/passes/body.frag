@@ -12,7 +12,7 @@ layout(location = 0) out vec4 out_color;
 
 void main()
 {
-    vec3 color = min(in_radiance * frame.exposure, 60000.0);
+    vec3 color = min(exposed(in_radiance), 60000.0);
     if (TONE != GPU_TONE_LINEAR)
         color = display(TONE, color);
     out_color = vec4(color, 1.0);

@@ -3,6 +3,7 @@
 #define AG_PASSES_FRAME_GLSL
 
 #include "interop/scene.glsl"
+#include "physics/white_balance.glsl"
 
 layout(scalar, set = 0, binding = 0) uniform Frame { gpu_frame frame; };
 layout(set = 0, binding = 1) uniform samplerCube environment_cube; // prefiltered
@@ -14,6 +15,12 @@ layout(set = 0, binding = 5) uniform samplerCube irradiance_cube; // over pi
 layout(scalar, set = 0, binding = 6) readonly buffer Lights { gpu_light lights[]; };
 layout(scalar, set = 0, binding = 7) readonly buffer Clusters { uint clusters[]; };
 layout(set = 0, binding = 8) uniform sampler2D ltc_table;
+
+// Light as the picture has it: exposed, its white balanced.
+vec3 exposed(vec3 light)
+{
+    return white_balanced(light, frame.red, frame.green, frame.blue);
+}
 
 // A direction of the world in the environment's own frame.
 vec3 environment_from_world(vec3 d)

@@ -221,7 +221,7 @@ vec4 base_here()
 vec4 color_here(vec4 base)
 {
     vec3 color = UNLIT != 0u ? frame.seen * base.rgb : radiance_to_eye(base.rgb);
-    color *= frame.exposure;
+    color = exposed(color);
     if (TONE != GPU_TONE_LINEAR)
         color = display(TONE, color);
     float alpha = ALPHA_MODE == GPU_ALPHA_BLEND ? base.a : 1.0;

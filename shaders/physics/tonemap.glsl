@@ -85,10 +85,11 @@ static inline vec3 tonemap_agx(vec3 c)
     return vec3(pow(c[0], 2.2f), pow(c[1], 2.2f), pow(c[2], 2.2f));
 }
 
-// `kind`: a TONEMAP_ constant.  `c` is not negative.
+// `kind`: a TONEMAP_ constant.
 static inline vec3 tonemap(uint kind, vec3 c)
 {
-    c = min(c, 1000000.0f); // white for every curve, and none of them overflows
+    // Nothing is darker than black; the upper end is white for every curve, and none overflows.
+    c = clamp(c, 0.0f, 1000000.0f);
     if (kind == TONEMAP_NEUTRAL)
         c = tonemap_neutral(c);
     else if (kind == TONEMAP_REINHARD)

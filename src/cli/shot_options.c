@@ -195,8 +195,8 @@ bool shot_request_settle(shot_request *r, const char *command)
                 command, command);
         return false;
     }
-    if (r->ev100_given) // the luminance that saturates, 1.2 * 2^EV100, becomes 1 (ISO 2720, 12232)
-        r->exposure = 1 / (1.2f * exp2f(r->ev100));
+    if (r->ev100_given)
+        r->exposure = ag_exposure_from_ev100(r->ev100);
     return sound(r);
 }
 

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "physics/display.glsl"
 #include "render/variants.h"
+#include "scene/picture.h"
 
 #include <string.h>
 
@@ -97,10 +98,12 @@ static void name_lights(const ag_renderer *r, const picture *p)
     const lights *l = &r->resident.lights;
     const gpu_light *all = l->all.memory.mapped;
     uint32_t tone = variants_tone_early(p);
+    const rgb_matrix m = picture_exposure(p->options);
+    float seen = p->options->parts & AG_PART_SEEN ? 1.0f : 0.0f;
     for (uint32_t i = 0; i < l->count; i++) {
         const float *light = &all[i].radiance.x;
-        float factor = p->options->parts & AG_PART_SEEN ? p->options->exposure : 0;
-        vec3 c = min(factor * vec3(light[0], light[1], light[2]), 60000.0f);
+        vec3 c = seen * vec3(light[0], light[1], light[2]);
+        c = min(white_balanced(c, m.red, m.green, m.blue), 60000.0f);
         if (tone != GPU_TONE_LINEAR)
             c = display(tone, c);
         r->visibility.sources[p->draws.instance_count + i] =

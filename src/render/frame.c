@@ -5,6 +5,7 @@
 #include "render/clusters.h"
 #include "render/deferred.h"
 #include "render/variants.h"
+#include "scene/picture.h"
 
 #include "physics/color.glsl"
 #include "physics/sampling.glsl"
@@ -289,6 +290,14 @@ static void set_parts(const picture *p, gpu_frame *frame)
     frame->environment_lobe = parts & AG_PART_SPECULAR ? intensity : 0;
 }
 
+static void set_exposure(const picture *p, gpu_frame *frame)
+{
+    const rgb_matrix m = picture_exposure(p->options);
+    frame->red = (float3) { m.red[0], m.red[1], m.red[2] };
+    frame->green = (float3) { m.green[0], m.green[1], m.green[2] };
+    frame->blue = (float3) { m.blue[0], m.blue[1], m.blue[2] };
+}
+
 ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t index)
 {
     ag_status status = gpu_commands_wait(r->device, &r->commands);
@@ -300,7 +309,7 @@ ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t 
     view_frame(&p->view, tile, offset, frame);
     surround_frame(&r->resident.surround, p->scene, frame);
     set_parts(p, frame);
-    frame->exposure = p->options->exposure;
+    set_exposure(p, frame);
     frame->footprint = 1 / sqrtf((float)p->frames);
     lights_frame(&r->resident.lights, frame);
     status = find_clusters(r, p, tile, index, frame);

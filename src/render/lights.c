@@ -3,6 +3,7 @@
 
 #include "base/log.h"
 #include "physics/light_punctual.glsl"
+#include "scene/picture.h"
 
 #include <string.h>
 
@@ -132,10 +133,20 @@ static bool is_part(const ag_render_options *o, size_t i)
     return o->parts & AG_PART_LIGHTS && (!o->light.id || o->light.id == i + 1);
 }
 
+// The greatest factor from light to what the picture has of it.
+static float most_exposed(const ag_render_options *o)
+{
+    const rgb_matrix m = picture_exposure(o);
+    float most = 0;
+    for (int i = 0; i < 3; i++)
+        most = fmaxf(most, fmaxf(m.red[i], fmaxf(m.green[i], m.blue[i])));
+    return most;
+}
+
 // In the order of their kinds.
 static void place(const ag_scene *scene, size_t count, const ag_render_options *o, lights *l)
 {
-    float exposure = o->format == AG_FORMAT_RGBA32F ? INFINITY : o->exposure;
+    float exposure = o->format == AG_FORMAT_RGBA32F ? INFINITY : most_exposed(o);
     gpu_light *out = l->all.memory.mapped;
     l->bodies = (uint32_t)count;
     l->count = 0;

@@ -3,6 +3,8 @@
 //
 // Positions, sizes, materials and lamps are theirs.  The shapes' vertices, the texels' order, the
 // cameras, the exposures and the second one's environment they do not print.
+#include <argand/eye.h>
+
 #include "image/image.h"
 #include "scene/demo.h"
 
@@ -221,7 +223,7 @@ static void hang_spheres(stage *s, float first_radius)
 // 1.2 * 2^EV.
 static void expose(stage *s, float ev100)
 {
-    stage_exposure(s, 683.0f / (1.2f * exp2f(ev100)));
+    stage_exposure(s, 683.0f * ag_exposure_from_ev100(ev100));
 }
 
 static void show(stage *s, float least_roughness)

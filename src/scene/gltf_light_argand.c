@@ -1,5 +1,7 @@
 // ARGAND_lights: the lights that no other extension has, and the exposure
 // (docs/ARGAND_lights.md).
+#include <argand/eye.h>
+
 #include "scene/gltf.h"
 
 #include <float.h>
@@ -107,5 +109,5 @@ ag_status gltf_exposure_read(gltf_file *file)
         status = gltf_float_in(&exposure, "factor", 1e-30f, 1e30f, &factor);
     if (status)
         return status;
-    return ag_scene_set_exposure(file->scene, in_ev ? 1.0f / (1.2f * exp2f(ev100)) : factor);
+    return ag_scene_set_exposure(file->scene, in_ev ? ag_exposure_from_ev100(ev100) : factor);
 }

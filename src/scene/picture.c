@@ -16,6 +16,12 @@ static bool choices_are_known(const ag_render_options *o)
            (unsigned)o->transfer <= AG_TRANSFER_GAMMA_22;
 }
 
+static bool white_is_in_range(const ag_render_options *o)
+{
+    float kelvin = o->white_balance_k, tint = o->white_balance_tint;
+    return kelvin == 0 || (kelvin >= 1667 && kelvin <= 25000 && tint >= -150 && tint <= 150);
+}
+
 ag_status picture_check(const ag_scene *scene, ag_render_options *o)
 {
     const uint32_t all =
@@ -31,6 +37,11 @@ ag_status picture_check(const ag_scene *scene, ag_render_options *o)
     if (!(o->exposure > 0 && isfinite(o->exposure)))
         return log_fail(log, AG_ERROR_ARGUMENT, "an exposure of %g is not above 0",
                         (double)o->exposure);
+    if (!white_is_in_range(o))
+        return log_fail(
+            log, AG_ERROR_ARGUMENT,
+            "a white balance of %g K and tint %g is not in 1667 to 25000 and -150 to 150",
+            (double)o->white_balance_k, (double)o->white_balance_tint);
     if (!choices_are_known(o))
         return log_fail(log, AG_ERROR_ARGUMENT,
                         "a render option has a value that its enumeration lacks");
@@ -43,6 +54,17 @@ ag_status picture_check(const ag_scene *scene, ag_render_options *o)
     if (!o->parts)
         o->parts = all;
     return AG_OK;
+}
+
+rgb_matrix picture_exposure(const ag_render_options *o)
+{
+    rgb_matrix m = o->white_balance_k == 0
+                       ? white_kept()
+                       : white_balance(o->white_balance_k, o->white_balance_tint);
+    m.red *= o->exposure;
+    m.green *= o->exposure;
+    m.blue *= o->exposure;
+    return m;
 }
 
 ag_status picture_view(const ag_scene *scene, const ag_camera_desc *camera,

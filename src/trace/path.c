@@ -49,9 +49,14 @@ static bool wants(const path *p, uint32_t parts)
     return (p->scene->picture.parts & parts) != 0;
 }
 
+static vec3 exposed(const path_scene *s, vec3 light)
+{
+    return white_balanced(light, s->exposure.red, s->exposure.green, s->exposure.blue);
+}
+
 static void add(path *p, vec3 light)
 {
-    light = light * p->scene->picture.exposure;
+    light = exposed(p->scene, light);
     float most = max(light[0], max(light[1], light[2])), limit = p->scene->options.clamp;
     if (!isfinite(light[0] + light[1] + light[2])) // of light beyond what floats hold
         return;
@@ -68,7 +73,7 @@ static void add_seen(path *p, vec3 light)
 {
     p->result.alpha = 1;
     if (wants(p, AG_PART_SEEN))
-        p->result.direct += min(light * p->scene->picture.exposure, BRIGHTEST);
+        p->result.direct += min(exposed(p->scene, light), BRIGHTEST);
 }
 
 // ---- Weights -----------------------------------------------------------------------

@@ -4,6 +4,7 @@
 
 #include <argand/reference.h>
 
+#include "physics/white_balance.glsl"
 #include "scene/view.h"
 #include "trace/albedo.h"
 #include "trace/emitters.h"
@@ -20,6 +21,7 @@ typedef struct path_scene {
     albedo_table albedo;
     view view;
     ag_render_options picture;
+    rgb_matrix exposure; // by the picture's options
     ag_reference_options options;
 } path_scene;
 

@@ -41,6 +41,8 @@ static ag_status prepare(const ag_scene *scene, const ag_camera_desc *camera, ag
     if (!status)
         status = picture_check(scene, &s->picture);
     if (!status)
+        s->exposure = picture_exposure(&s->picture);
+    if (!status)
         status = picture_view(scene, camera, &s->picture, &s->view);
     if (!status)
         status = world_create(scene, &s->world);

@@ -19,8 +19,9 @@
 #include "physics/specular_aa.glsl"
 #include "physics/surface.glsl"
 #include "physics/tonemap.glsl"
+#include "physics/white_balance.glsl"
 
-#define CASE_COUNT 62u
+#define CASE_COUNT 63u
 
 // A vector's components told apart.
 static inline real case_mark(vec3 v)
@@ -48,6 +49,12 @@ static inline surface case_surface(vec4 u)
     m.specular = u[2];
     m.model = 0u;
     return surface_from_metallic_roughness(m, 0.5f, vec2(0.3f + 0.5f * u[1], 0.2f * u[3]));
+}
+
+static inline real case_white_balance(real kelvin, real tint, vec3 color)
+{
+    rgb_matrix m = white_balance(kelvin, tint);
+    return case_mark(white_balanced(color, m.red, m.green, m.blue));
 }
 
 static inline ambient_light case_ambient(vec4 u)
@@ -185,6 +192,7 @@ static inline real physics_case(uint id, vec4 u)
     case 59u: return case_light_sample(3u, 1u, u) + case_light_sample(3u, 2u, u);
     case 60u: return case_light_sample(4u, 1u, u) + case_light_sample(4u, 2u, u);
     case 61u: return case_light_sample(5u, 0u, u);
+    case 62u: return case_white_balance(2000.0f + 20000.0f * u[3], 60.0f * alpha - 30.0f, color);
     }
     return 0.0f;
 }
