@@ -10,5 +10,6 @@
 #include <argand/reference.h>
 #include <argand/renderer.h>
 #include <argand/scene.h>
+#include <argand/window.h>
 
 #endif

@@ -45,6 +45,7 @@ typedef struct ag_device_desc {
     const char *select;
     bool validate; // the Khronos validation layer with synchronisation validation;
                    // its messages come as errors.  AG_ERROR_DEVICE where it is absent.
+    bool windows;  // pictures will be shown in windows (argand/window.h)
 } ag_device_desc;
 
 typedef struct ag_device ag_device;
@@ -140,6 +141,7 @@ AG_API bool ag_demo_look(const char *name, ag_render_options *options);
 // Milliseconds of wall time that one render spent, and what it drew.
 typedef struct ag_render_stats {
     double bake_ms, compile_ms, upload_ms, frame_ms, readback_ms;
+    double show_ms; // in a window: layers and presentation
     uint32_t draws, instances, tiles, samples;
     uint64_t triangles;
     bool environment_cached; // found on disk, not baked

@@ -186,6 +186,12 @@ STRUCT_BEGIN(gpu_resolve)
     float weight;      // of this picture in the sum
 STRUCT_END(gpu_resolve)
 
+// An image in a window; pushed.
+STRUCT_BEGIN(gpu_layer)
+    float4 place;  // left, top, right, bottom in clip space
+    float opacity; // 1: as its alpha says; 0: its alpha is not looked at
+STRUCT_END(gpu_layer)
+
 // A place to shade.
 STRUCT_BEGIN(gpu_listed)
     uint pixel; // x, and y in the upper 16 bits

@@ -108,6 +108,12 @@ ag_status gpu_commands_begin(gpu_device *device, gpu_commands *commands)
 
 ag_status gpu_commands_submit(gpu_device *device, gpu_commands *commands)
 {
+    return gpu_commands_submit_between(device, commands, VK_NULL_HANDLE, VK_NULL_HANDLE);
+}
+
+ag_status gpu_commands_submit_between(gpu_device *device, gpu_commands *commands,
+                                      VkSemaphore before, VkSemaphore after)
+{
     ag_status status =
         gpu_check(device, vkEndCommandBuffer(commands->buffer), "vkEndCommandBuffer");
     if (status)
@@ -116,8 +122,22 @@ ag_status gpu_commands_submit(gpu_device *device, gpu_commands *commands)
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
         .commandBuffer = commands->buffer,
     };
+    const VkSemaphoreSubmitInfo wait = {
+        .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+        .semaphore = before,
+        .stageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+    };
+    const VkSemaphoreSubmitInfo signal = {
+        .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+        .semaphore = after,
+        .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+    };
     const VkSubmitInfo2 info = {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+        .waitSemaphoreInfoCount = before ? 1 : 0,
+        .pWaitSemaphoreInfos = &wait,
+        .signalSemaphoreInfoCount = after ? 1 : 0,
+        .pSignalSemaphoreInfos = &signal,
         .commandBufferInfoCount = 1,
         .pCommandBufferInfos = &buffer,
     };

@@ -18,6 +18,9 @@ void gpu_commands_destroy(gpu_device *device, gpu_commands *commands); // waits;
 // Waits for what was submitted before, and drops what was recorded and not submitted.
 AG_CHECK ag_status gpu_commands_begin(gpu_device *device, gpu_commands *commands);
 AG_CHECK ag_status gpu_commands_submit(gpu_device *device, gpu_commands *commands);
+// The same, with colours written after `before` is signalled, and `after` signalled at the end.
+AG_CHECK ag_status gpu_commands_submit_between(gpu_device *device, gpu_commands *commands,
+                                               VkSemaphore before, VkSemaphore after);
 AG_CHECK ag_status gpu_commands_wait(gpu_device *device, gpu_commands *commands);
 
 // What happens to an image (or to memory) on one side of a barrier.

@@ -83,8 +83,29 @@ static ag_status open_physical(gpu_device *device, const char *select)
     return AG_OK;
 }
 
-static ag_status open_logical(gpu_device *device)
+// Pictures in windows are asked for: see that they can be had.
+static ag_status check_swapchain(const gpu_device *device)
 {
+    VkExtensionProperties all[512];
+    uint32_t count = 512;
+    VkResult result = vkEnumerateDeviceExtensionProperties(device->physical, NULL, &count, all);
+    if (result != VK_SUCCESS && result != VK_INCOMPLETE)
+        return gpu_check(device, result, "vkEnumerateDeviceExtensionProperties");
+    for (uint32_t i = 0; i < count; i++)
+        if (strcmp(all[i].extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0)
+            return AG_OK;
+    return log_fail(&device->log, AG_ERROR_DEVICE,
+                    "%s cannot show pictures in a window: its driver has no swapchain",
+                    device->info.name);
+}
+
+static ag_status open_logical(gpu_device *device, bool windows)
+{
+    if (windows) {
+        ag_status status = check_swapchain(device);
+        if (status)
+            return status;
+    }
     VkPhysicalDeviceFeatures present;
     vkGetPhysicalDeviceFeatures(device->physical, &present);
     // On a CPU an anisotropic tap costs seven plain ones.
@@ -116,9 +137,12 @@ static ag_status open_logical(gpu_device *device)
         .samplerAnisotropy = anisotropic,
         .fullDrawIndexUint32 = present.fullDrawIndexUint32, // meshes above 2^24 vertices
     };
+    const char *const extensions[] = { VK_KHR_SWAPCHAIN_EXTENSION_NAME };
     const VkDeviceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
         .pNext = &v12,
+        .enabledExtensionCount = windows ? 1 : 0,
+        .ppEnabledExtensionNames = extensions,
         .queueCreateInfoCount = 1,
         .pQueueCreateInfos = &queue,
         .pEnabledFeatures = &enabled,
@@ -173,13 +197,14 @@ ag_status ag_device_create(const ag_device_desc *desc, ag_device **out)
         return log_fail(desc->log, AG_ERROR_MEMORY, "no memory for a device");
     device->log = log_resolve(desc->log);
     keep_compiled_shaders(&device->log);
-    ag_status status = gpu_instance_create(&device->log, desc->validate, &device->instance);
+    ag_status status =
+        gpu_instance_create(&device->log, desc->validate, desc->windows, &device->instance);
     if (!status && desc->validate)
         status = listen(device);
     if (!status)
         status = open_physical(device, desc->select);
     if (!status)
-        status = open_logical(device);
+        status = open_logical(device, desc->windows);
     if (!status)
         status = make_pools(device);
     if (status) {

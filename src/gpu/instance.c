@@ -24,7 +24,29 @@ static bool validation_layer_present(void)
     return false;
 }
 
-ag_status gpu_instance_create(const ag_log *log, bool validate, VkInstance *instance)
+enum { EXTENSIONS_MAX = 128 };
+
+static bool ends_with(const char *text, const char *end)
+{
+    size_t length = strlen(text), wanted = strlen(end);
+    return length >= wanted && strcmp(text + length - wanted, end) == 0;
+}
+
+// The names of VK_KHR_surface and its platforms, into `all`; how many there are.
+static uint32_t surface_extensions(VkExtensionProperties all[EXTENSIONS_MAX],
+                                   const char *names[EXTENSIONS_MAX])
+{
+    uint32_t count = EXTENSIONS_MAX, found = 0;
+    VkResult result = vkEnumerateInstanceExtensionProperties(NULL, &count, all);
+    if (result != VK_SUCCESS && result != VK_INCOMPLETE)
+        return 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (ends_with(all[i].extensionName, "_surface"))
+            names[found++] = all[i].extensionName;
+    return found;
+}
+
+ag_status gpu_instance_create(const ag_log *log, bool validate, bool windows, VkInstance *instance)
 {
     *instance = VK_NULL_HANDLE;
     if (validate && !validation_layer_present())
@@ -40,7 +62,11 @@ ag_status gpu_instance_create(const ag_log *log, bool validate, VkInstance *inst
         .pEnabledValidationFeatures = enables,
     };
     const char *const layers[] = { "VK_LAYER_KHRONOS_validation" };
-    const char *const extensions[] = { VK_EXT_DEBUG_UTILS_EXTENSION_NAME };
+    VkExtensionProperties present[EXTENSIONS_MAX];
+    const char *extensions[EXTENSIONS_MAX + 1];
+    uint32_t extension_count = windows ? surface_extensions(present, extensions) : 0;
+    if (validate)
+        extensions[extension_count++] = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     const VkApplicationInfo application = {
         .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
         .pApplicationName = "argand",
@@ -53,7 +79,7 @@ ag_status gpu_instance_create(const ag_log *log, bool validate, VkInstance *inst
         .pApplicationInfo = &application,
         .enabledLayerCount = validate ? 1 : 0,
         .ppEnabledLayerNames = layers,
-        .enabledExtensionCount = validate ? 1 : 0,
+        .enabledExtensionCount = extension_count,
         .ppEnabledExtensionNames = extensions,
     };
     VkResult result = vkCreateInstance(&info, NULL, instance);
@@ -214,7 +240,7 @@ ag_status ag_device_list(const ag_log *log, ag_device_info *infos, size_t capaci
 {
     *count = 0;
     VkInstance instance;
-    ag_status status = gpu_instance_create(log, false, &instance);
+    ag_status status = gpu_instance_create(log, false, false, &instance);
     if (status)
         return status;
     VkPhysicalDevice devices[GPU_DEVICES_MAX];

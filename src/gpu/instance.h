@@ -7,8 +7,9 @@
 #include <vulkan/vulkan.h>
 
 // Make an instance.  With `validate` the Khronos layer is on, with synchronisation
-// validation.
-AG_CHECK ag_status gpu_instance_create(const ag_log *log, bool validate, VkInstance *instance);
+// validation; with `windows` every kind of surface that the drivers have.
+AG_CHECK ag_status gpu_instance_create(const ag_log *log, bool validate, bool windows,
+                                       VkInstance *instance);
 
 enum { GPU_DEVICES_MAX = 32 };
 

@@ -57,6 +57,10 @@ static ag_status create_layouts(gpu_device *device, bindings *b)
         status =
             gpu_pipeline_layout_create(device, &b->picture_set, 1, VK_SHADER_STAGE_FRAGMENT_BIT,
                                        sizeof(gpu_resolve), &b->pictures);
+    if (!status)
+        status = gpu_pipeline_layout_create(device, &b->picture_set, 1,
+                                            vertex | VK_SHADER_STAGE_FRAGMENT_BIT,
+                                            sizeof(gpu_layer), &b->layers);
     return status ? status : create_shading_layouts(device, b);
 }
 
@@ -137,6 +141,7 @@ void bindings_destroy(gpu_device *device, bindings *b)
     vkDestroySampler(device->device, b->panorama, NULL);
     vkDestroyPipelineLayout(device->device, b->surfaces, NULL);
     vkDestroyPipelineLayout(device->device, b->pictures, NULL);
+    vkDestroyPipelineLayout(device->device, b->layers, NULL);
     vkDestroyPipelineLayout(device->device, b->shading, NULL);
     vkDestroyDescriptorSetLayout(device->device, b->listed_set, NULL);
     vkDestroyDescriptorSetLayout(device->device, b->frame_set, NULL);

@@ -10,6 +10,7 @@ typedef struct bindings {
     VkDescriptorSetLayout frame_set, material_set, picture_set, listed_set;
     VkPipelineLayout surfaces; // frame, material; also the background's
     VkPipelineLayout pictures; // picture; push constants gpu_resolve
+    VkPipelineLayout layers;   // picture; push constants gpu_layer
     VkPipelineLayout shading;  // frame, material, listed; push constants gpu_list
     VkSampler linear;          // clamped, between mips
     VkSampler panorama;        // wraps around, clamped above and below

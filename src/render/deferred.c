@@ -338,7 +338,17 @@ static void mix_colors(const ag_renderer *r, const picture *p, uint32_t index,
     shade_list_mix(list, &how);
 }
 
-ag_status deferred_draw(ag_renderer *r, const picture *p, uint32_t index)
+// The finished tile into the image that is shown.
+static ag_status hand_over(ag_renderer *r, const picture *p, view_rect tile)
+{
+    ag_status status = gpu_commands_begin(r->device, &r->commands);
+    if (status)
+        return status;
+    targets_hand_over(&r->commands, &r->targets, p->into, tile.x, tile.y);
+    return run(r);
+}
+
+ag_status deferred_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t index)
 {
     shade_list list;
     ag_status status = see(r, p, &list);
@@ -347,5 +357,7 @@ ag_status deferred_draw(ag_renderer *r, const picture *p, uint32_t index)
     if (!status)
         mix_colors(r, p, index, &list);
     shade_list_finish(&list);
+    if (!status && p->into && index + 1 == p->frames)
+        status = hand_over(r, p, tile);
     return status;
 }

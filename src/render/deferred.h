@@ -14,7 +14,8 @@ bool deferred_fits(const ag_renderer *r, const picture *p);
 AG_CHECK ag_status deferred_prepare(ag_renderer *r, const picture *p);
 AG_CHECK ag_status deferred_warm_up(ag_renderer *r, const picture *p);
 
-// After r->frame is written; the last frame leaves its pixels in r->targets.pixels.
-AG_CHECK ag_status deferred_draw(ag_renderer *r, const picture *p, uint32_t index);
+// After r->frame is written; the last frame leaves its pixels in r->targets.pixels, and hands
+// them over to p->into.
+AG_CHECK ag_status deferred_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t index);
 
 #endif

@@ -233,14 +233,18 @@ static ag_status record_resolve(ag_renderer *r, const picture *p, uint32_t index
 
 // ---- Frames ------------------------------------------------------------------
 
-static ag_status record_and_submit(ag_renderer *r, const picture *p, uint32_t index, bool warm_up)
+static ag_status record_and_submit(ag_renderer *r, const picture *p, view_rect tile, uint32_t index,
+                                   bool warm_up)
 {
+    bool last = !warm_up && index + 1 == p->frames;
     ag_status status = gpu_commands_begin(r->device, &r->commands);
     if (!status)
         status = record_surfaces(r, p, warm_up);
     if (!status && p->hdr)
         status = record_resolve(r, p, index, warm_up);
-    if (!status && !warm_up && index + 1 == p->frames)
+    if (!status && last && p->into)
+        targets_hand_over(&r->commands, &r->targets, p->into, tile.x, tile.y);
+    else if (!status && last)
         targets_read_back(&r->commands, &r->targets);
     if (!status)
         status = gpu_commands_submit(r->device, &r->commands);
@@ -249,7 +253,8 @@ static ag_status record_and_submit(ag_renderer *r, const picture *p, uint32_t in
 
 ag_status frame_warm_up(ag_renderer *r, const picture *p)
 {
-    return p->deferred ? deferred_warm_up(r, p) : record_and_submit(r, p, 0, true);
+    return p->deferred ? deferred_warm_up(r, p)
+                       : record_and_submit(r, p, (view_rect) { 0 }, 0, true);
 }
 
 // Where frame `index` samples its pixels: a Gaussian filter of .47 px standard deviation, cut
@@ -315,5 +320,6 @@ ag_status frame_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t 
     status = find_clusters(r, p, tile, index, frame);
     if (status)
         return status;
-    return p->deferred ? deferred_draw(r, p, index) : record_and_submit(r, p, index, false);
+    return p->deferred ? deferred_draw(r, p, tile, index)
+                       : record_and_submit(r, p, tile, index, false);
 }

@@ -54,6 +54,12 @@ static gpu_pipeline_desc describe(const bindings *b, const pipeline_key *key)
         desc.blend = GPU_BLEND_ADD;
         break;
     case PIPELINE_RESOLVE: desc.fragment = shader_resolve_frag(); break;
+    case PIPELINE_LAYER:
+        desc.vertex = shader_layer_vert();
+        desc.fragment = shader_layer_frag();
+        desc.layout = b->layers;
+        desc.blend = GPU_BLEND_OVER;
+        break;
     }
     return desc;
 }

@@ -12,6 +12,7 @@ typedef enum pipeline_kind {
     PIPELINE_BACKGROUND, // the environment behind everything
     PIPELINE_ACCUMULATE, // a picture into the sum
     PIPELINE_RESOLVE,    // radiance to the picture that leaves
+    PIPELINE_LAYER,      // an image in a window
     PIPELINE_SHADE,      // surfaces, from a list; this and what follows compute
     PIPELINE_SHADE_BACKGROUND,
 } pipeline_kind;

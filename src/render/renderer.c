@@ -215,7 +215,8 @@ static ag_status draw_tiles(ag_renderer *r, const picture *p, ag_image *image,
         if (status)
             return status;
         double drawn = clock_ms();
-        pixels_place(r->targets.pixels.memory.mapped, tile, image);
+        if (!p->into)
+            pixels_place(r->targets.pixels.memory.mapped, tile, image);
         stats->frame_ms += drawn - start;
         stats->readback_ms += clock_ms() - drawn;
     }
@@ -225,8 +226,8 @@ static ag_status draw_tiles(ag_renderer *r, const picture *p, ag_image *image,
 static ag_status render(ag_renderer *r, picture *p, ag_image **out, ag_render_stats *stats)
 {
     ag_status status = prepare(r, p, stats);
-    if (status)
-        return status;
+    if (status || p->into)
+        return status ? status : draw_tiles(r, p, NULL, stats);
     const ag_image_desc desc = { p->options->width, p->options->height, p->options->format, NULL };
     ag_image *image;
     status = ag_image_create(&r->device->log, &desc, &image);
@@ -270,22 +271,20 @@ static void tell_choices(const ag_renderer *r, const picture *p, const ag_render
               stats->samples == 1 ? "" : "s");
 }
 
-ag_status ag_renderer_render(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,
-                             const ag_render_options *options, ag_image **image,
-                             ag_render_stats *stats)
+// Into `*image`, or into `into` where that is not NULL.
+static ag_status make(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,
+                      const ag_render_options *options, const gpu_image *into, ag_image **image,
+                      ag_render_stats *stats)
 {
     ag_render_options checked = options ? *options : (ag_render_options) { 0 };
-    ag_render_stats unwanted;
-    if (!stats)
-        stats = &unwanted;
     *stats = (ag_render_stats) { 0 };
-    *image = NULL;
     picture p;
     ag_status status = picture_check(scene, &checked);
     if (!status)
         status = plan(scene, camera, &checked, &p);
     if (status)
         return status;
+    p.into = into;
     stats->draws = p.draws.count;
     stats->instances = p.draws.instance_count;
     stats->triangles = p.draws.triangles;
@@ -295,4 +294,20 @@ ag_status ag_renderer_render(ag_renderer *r, const ag_scene *scene, const ag_cam
         tell_choices(r, &p, stats);
     draws_finish(&p.draws);
     return status;
+}
+
+ag_status ag_renderer_render(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,
+                             const ag_render_options *options, ag_image **image,
+                             ag_render_stats *stats)
+{
+    ag_render_stats unwanted;
+    *image = NULL;
+    return make(r, scene, camera, options, NULL, image, stats ? stats : &unwanted);
+}
+
+ag_status renderer_draw_into(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,
+                             const ag_render_options *options, const gpu_image *into,
+                             ag_render_stats *stats)
+{
+    return make(r, scene, camera, options, into, NULL, stats);
 }

@@ -48,4 +48,11 @@ AG_CHECK ag_status resident_surround(ag_renderer *renderer, const ag_scene *scen
                                      ag_render_stats *stats);
 void resident_destroy(gpu_device *device, resident *r); // zero is allowed
 
+// Make a picture as ag_renderer_render does, into an image of its size: 8 bits, as they are
+// coded, sampled by shaders before and after.
+AG_CHECK ag_status renderer_draw_into(ag_renderer *renderer, const ag_scene *scene,
+                                      const ag_camera_desc *camera,
+                                      const ag_render_options *options, const gpu_image *into,
+                                      ag_render_stats *stats);
+
 #endif

@@ -28,6 +28,12 @@ static const uint32_t accumulate_frag[] =
 static const uint32_t resolve_frag[] =
 #include "resolve.frag.inc"
     ;
+static const uint32_t layer_vert[] =
+#include "layer.vert.inc"
+    ;
+static const uint32_t layer_frag[] =
+#include "layer.frag.inc"
+    ;
 static const uint32_t shade_comp[] =
 #include "shade.comp.inc"
     ;
@@ -78,6 +84,16 @@ gpu_shader shader_accumulate_frag(void)
 gpu_shader shader_resolve_frag(void)
 {
     return (gpu_shader) { resolve_frag, sizeof resolve_frag };
+}
+
+gpu_shader shader_layer_vert(void)
+{
+    return (gpu_shader) { layer_vert, sizeof layer_vert };
+}
+
+gpu_shader shader_layer_frag(void)
+{
+    return (gpu_shader) { layer_frag, sizeof layer_frag };
 }
 
 gpu_shader shader_shade_comp(void)

@@ -13,6 +13,8 @@ gpu_shader shader_fullscreen_vert(void);
 gpu_shader shader_background_frag(void);
 gpu_shader shader_accumulate_frag(void);
 gpu_shader shader_resolve_frag(void);
+gpu_shader shader_layer_vert(void);
+gpu_shader shader_layer_frag(void);
 gpu_shader shader_shade_comp(void);
 gpu_shader shader_shade_background_comp(void);
 

@@ -59,7 +59,8 @@ ag_status targets_ensure(gpu_device *device, const targets_desc *desc, targets *
     if (!status)
         status =
             gpu_buffer_create(device, texel * desc->width * desc->height,
-                              VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_MEMORY_READBACK, &t->pixels);
+                              VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                              GPU_MEMORY_READBACK, &t->pixels);
     if (status)
         targets_destroy(device, t);
     return status;
@@ -86,4 +87,36 @@ void targets_read_back(const gpu_commands *commands, const targets *t)
     vkCmdCopyImageToBuffer(commands->buffer, t->picture.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                            t->pixels.buffer, 1, &region);
     gpu_barrier_memory(commands, GPU_ACCESS_TRANSFER_WRITE, GPU_ACCESS_HOST_READ);
+}
+
+static VkExtent3D reach(const targets *t, const gpu_image *image, uint32_t x, uint32_t y)
+{
+    uint32_t width = image->desc.width - x, height = image->desc.height - y;
+    return (VkExtent3D) { width < t->desc.width ? width : t->desc.width,
+                          height < t->desc.height ? height : t->desc.height, 1 };
+}
+
+void targets_hand_over(const gpu_commands *commands, const targets *t, const gpu_image *image,
+                       uint32_t x, uint32_t y)
+{
+    const VkImageSubresourceLayers all = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
+    const VkOffset3D at = { (int32_t)x, (int32_t)y, 0 };
+    const VkExtent3D extent = reach(t, image, x, y);
+    gpu_barrier_image(commands, image, GPU_ACCESS_SAMPLED, GPU_ACCESS_TRANSFER_WRITE);
+    if (t->desc.deferred) {
+        const VkBufferImageCopy region = { .bufferRowLength = t->desc.width,
+                                           .imageSubresource = all,
+                                           .imageOffset = at,
+                                           .imageExtent = extent };
+        vkCmdCopyBufferToImage(commands->buffer, t->pixels.buffer, image->image,
+                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    } else {
+        const VkImageCopy region = {
+            .srcSubresource = all, .dstSubresource = all, .dstOffset = at, .extent = extent
+        };
+        gpu_barrier_image(commands, &t->picture, GPU_ACCESS_COLOR, GPU_ACCESS_TRANSFER_READ);
+        vkCmdCopyImage(commands->buffer, t->picture.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                       image->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    }
+    gpu_barrier_image(commands, image, GPU_ACCESS_TRANSFER_WRITE, GPU_ACCESS_SAMPLED);
 }

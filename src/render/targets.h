@@ -36,4 +36,9 @@ VkFormat targets_picture_format(ag_format format);
 // Copy the picture (last used as a colour attachment) to `pixels`.
 void targets_read_back(const gpu_commands *commands, const targets *t);
 
+// Copy the picture, or `pixels` where nothing was drawn, to (x, y) of an image that is sampled,
+// as far as it reaches.
+void targets_hand_over(const gpu_commands *commands, const targets *t, const gpu_image *image,
+                       uint32_t x, uint32_t y);
+
 #endif
