@@ -260,8 +260,8 @@ static bool try_layout(layout *l, const panel_row *rows, size_t count, panel_roo
     float inner = (float)room.width - (2 * margin_x - column_gap) * l->d.scale;
     float widest = floorf(inner / (float)columns - column_gap * l->d.scale);
     float natural = fmaxf(natural_column(&l->d, rows, count), at_least);
-    if (columns > 1 && natural > widest)
-        return false; // breaking lines to make columns gains nothing
+    if (columns > 1 && 0.75f * natural > widest)
+        return false; // breaking so many lines gains nothing
     l->column = fmaxf(fminf(natural, widest), 1);
     l->d.left = fminf(l->d.left, ceilf(0.45f * l->column));
     for (size_t i = 0; i < count; i++)

@@ -425,7 +425,10 @@ static void test_orthographic_shows_the_target_as_large(void **state)
     assert_true(s.orthographic);
     project(&s, point, seen);
     assert_true(hypot(seen[0] - at[0], seen[1] - at[1]) < 1e-2);
-    // The whole scene is before the eye.
+    // The whole scene is before the eye, however near one has come.
+    navigation_zoom(&n, 40, at);
+    settle(&n);
+    s = sight_of(&n);
     const double center[3] = { 1, 1, -1 };
     double depth = 0;
     for (int i = 0; i < 3; i++)
