@@ -126,7 +126,7 @@ static int bench(ag_scene *scene)
     view v;
     world w;
     if (picture_check(scene, &options) || picture_view(scene, NULL, &options, &v) ||
-        world_create(scene, &w))
+        world_create(scene, NULL, &w))
         return 1;
     bouncing b = { .rays = aligned_alloc(_Alignof(ray), SIZE * SIZE * sizeof(ray)) };
     if (!b.rays)

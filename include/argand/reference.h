@@ -34,27 +34,37 @@ typedef struct ag_reference_options {
     uint32_t seed;        // the same seed gives the same bytes on any number of threads
     bool keep_aovs;       // ag_reference_aov will be asked
     ag_estimator estimator;
+    ag_progress progress; // of preparing: stage "prepare"
 } ag_reference_options;
 
 typedef struct ag_reference ag_reference;
 
-// Prepare a picture without a sample.  `scene` is borrowed, and must not change while the
-// reference lives; `camera` NULL -> ag_scene_frame's automatic view; of `picture` (NULL ->
-// defaults) quality and area_lights are not looked at; `options` NULL -> defaults.
-// AG_ERROR_ARGUMENT as ag_renderer_render; AG_ERROR_MEMORY.
+// Prepare a picture without a sample.  `scene` is borrowed; when it has changed,
+// ag_reference_restart and _destroy are all that may be called; `camera` NULL -> ag_scene_frame's
+// automatic view; of `picture` (NULL -> defaults) quality and area_lights are not looked at;
+// `options` NULL -> defaults. AG_ERROR_ARGUMENT as ag_renderer_render; AG_ERROR_MEMORY.
 AG_CHECK ag_status ag_reference_create(const ag_scene *scene, const ag_camera_desc *camera,
                                        const ag_render_options *picture,
                                        const ag_reference_options *options,
                                        ag_reference **reference);
 AG_API void ag_reference_destroy(ag_reference *reference); // NULL is allowed
 
+// Begin again, as if made anew of the scene as it is now.  What has not changed of it is not
+// prepared again: another camera, picture or options, lights and the environment's rotation take
+// next to no time, set materials little, all else what it took at first.  On failure the reference
+// stays as it was; then, where the scene has changed, it can be restarted or destroyed only.
+AG_CHECK ag_status ag_reference_restart(ag_reference *reference, const ag_camera_desc *camera,
+                                        const ag_render_options *picture,
+                                        const ag_reference_options *options);
+
 // When to stop; the first that comes true.  All 0 -> 64 samples.
 typedef struct ag_reference_goal {
     uint32_t samples; // a pixel, those from before among them; 0 -> no limit
     double seconds;   // of this call; 0 -> no limit
     float noise;      // see ag_reference_state; 0 -> no limit
-    // Stage "trace".  Returning false ends the call with AG_ERROR_CANCELLED; what has been
-    // gathered stays, and the picture is sound.
+    // Stage "trace", asked every 1024 paths at the latest, some milliseconds.  Returning false
+    // ends the call with AG_ERROR_CANCELLED; what has been gathered stays, and the picture is
+    // sound, though some of its parts have more samples than others.
     ag_progress progress;
 } ag_reference_goal;
 

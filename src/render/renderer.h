@@ -15,8 +15,8 @@
 
 // What of a scene is on the device.
 typedef struct resident {
-    uint64_t scene, revision;                  // what the things were made from; 0 = nothing
-    uint64_t surrounded, environment_revision; // what the surround was made from
+    uint64_t scene, revision, materials_revision; // what the things were made from; 0 = nothing
+    uint64_t surrounded, environment_revision;    // what the surround was made from
     geometry geometry;
     textures textures;
     materials materials;

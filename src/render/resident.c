@@ -45,7 +45,8 @@ ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool rel
                           double *upload_ms)
 {
     resident *r = &renderer->resident;
-    if (r->scene == scene->id && r->revision == scene->revision)
+    if (r->scene == scene->id && r->revision == scene->revision &&
+        r->materials_revision == scene->materials_revision)
         return AG_OK;
     double start = clock_ms();
     gpu_upload upload;
@@ -62,6 +63,7 @@ ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool rel
     }
     r->scene = scene->id;
     r->revision = scene->revision;
+    r->materials_revision = scene->materials_revision;
     return AG_OK;
 }
 

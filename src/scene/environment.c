@@ -56,7 +56,6 @@ ag_status ag_scene_set_environment(ag_scene *scene, const ag_environment_desc *d
     scene->environment_kind = desc->kind;
     scene->environment_rotation_rad = desc->rotation_rad;
     scene->environment_intensity = desc->intensity == 0.0f ? 1.0f : desc->intensity;
-    scene->revision++;
     return AG_OK;
 }
 

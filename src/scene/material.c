@@ -192,7 +192,7 @@ ag_status ag_scene_set_material(ag_scene *scene, ag_material material, const ag_
                         scene->materials_count - 1);
     ag_status status = make(scene, desc, &scene->materials[material.id]);
     if (!status)
-        scene->revision++;
+        scene->materials_revision++;
     return status;
 }
 

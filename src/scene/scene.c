@@ -37,7 +37,7 @@ ag_status ag_scene_create(const ag_log *log, ag_scene **scene)
     made->environment_kind = AG_ENVIRONMENT_STUDIO;
     made->environment_intensity = made->exposure = 1.0f;
     made->id = make_id(made);
-    made->revision = made->environment_revision = 1;
+    made->revision = made->materials_revision = made->environment_revision = 1;
     *scene = made;
     return AG_OK;
 }

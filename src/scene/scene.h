@@ -60,7 +60,8 @@ struct ag_scene {
     float exposure; // linear factor
     double load_ms, decode_ms;
     uint64_t id;                   // no other scene has it, also none freed before
-    uint64_t revision;             // rises with every change
+    uint64_t revision;             // rises with meshes, textures, instances, materials added
+    uint64_t materials_revision;   // rises when a material is set
     uint64_t environment_revision; // rises when the environment's kind or image changes
 };
 

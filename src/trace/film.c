@@ -13,8 +13,8 @@ ag_status film_init(const ag_log *log, uint32_t width, uint32_t height, bool aov
     *f = (film) {
         .width = width,
         .height = height,
-        .columns = (width + FILM_TILE - 1) / FILM_TILE,
-        .rows = (height + FILM_TILE - 1) / FILM_TILE,
+        .columns = (width + FILM_TILE_WIDTH - 1) / FILM_TILE_WIDTH,
+        .rows = (height + FILM_TILE_HEIGHT - 1) / FILM_TILE_HEIGHT,
     };
     size_t count = (size_t)width * height;
     f->pixels = calloc(count, sizeof *f->pixels);
@@ -59,7 +59,7 @@ void film_add(film *f, uint32_t x, uint32_t y, const path_result *sample)
 
 static uint32_t samples_at(const film *f, uint32_t x, uint32_t y)
 {
-    return f->samples[(size_t)(y / FILM_TILE) * f->columns + x / FILM_TILE];
+    return f->samples[(size_t)(y / FILM_TILE_HEIGHT) * f->columns + x / FILM_TILE_WIDTH];
 }
 
 static float inverse(uint32_t count)

@@ -6,7 +6,7 @@
 
 #include "trace/path.h"
 
-enum { FILM_TILE = 32 }; // px; what one task adds to
+enum { FILM_TILE_WIDTH = 64, FILM_TILE_HEIGHT = 4 }; // px; what one task adds to
 
 typedef struct film_pixel {
     float direct[3], indirect[3], alpha;

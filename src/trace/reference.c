@@ -18,7 +18,9 @@ struct ag_reference {
     path_scene scene;
     film film;
     ag_log log;
-    uint32_t samples; // of every pixel
+    const ag_scene *source;
+    uint64_t revision, materials_revision, environment_revision; // of the source
+    uint32_t samples;                                            // of every pixel
     uint64_t rays;
     double prepare_ms, trace_ms;
     float noise;
@@ -34,29 +36,92 @@ static ag_status check(const ag_log *log, const ag_reference_options *o)
     return AG_OK;
 }
 
-static ag_status prepare(const ag_scene *scene, const ag_camera_desc *camera, ag_reference *r)
+// What of `before` (NULL: nothing) still holds is shared with it.
+static ag_status prepare_world(const ag_reference *before, ag_reference *r)
+{
+    path_scene *s = &r->scene;
+    const ag_progress *progress = &s->options.progress;
+    bool built = before && before->revision == r->revision;
+    if (built && before->materials_revision == r->materials_revision) {
+        s->world = before->scene.world;
+        s->emitters = before->scene.emitters;
+        return AG_OK;
+    }
+    ag_status status = built ? world_renew(r->source, &before->scene.world, progress, &s->world)
+                             : world_create(r->source, progress, &s->world);
+    return status ? status : emitters_init(&s->world, &s->emitters);
+}
+
+static ag_status prepare_sky(const ag_reference *before, ag_reference *r)
+{
+    if (!before || before->environment_revision != r->environment_revision)
+        return sky_init(r->source, &r->scene.sky);
+    r->scene.sky = before->scene.sky;
+    sky_turn(r->source, &r->scene.sky);
+    return AG_OK;
+}
+
+static ag_status prepare(const ag_camera_desc *camera, const ag_reference *before, ag_reference *r)
 {
     path_scene *s = &r->scene;
     ag_status status = check(&r->log, &s->options);
     if (!status)
-        status = picture_check(scene, &s->picture);
+        status = picture_check(r->source, &s->picture);
     if (!status)
         s->exposure = picture_exposure(&s->picture);
     if (!status)
-        status = picture_view(scene, camera, &s->picture, &s->view);
-    if (!status)
-        status = world_create(scene, &s->world);
-    if (!status)
-        status = sky_init(scene, &s->sky);
-    if (!status)
-        status = lights_init(scene, s->picture.light, &s->lights);
-    if (!status)
-        status = emitters_init(&s->world, &s->emitters);
+        status = picture_view(r->source, camera, &s->picture, &s->view);
     if (!status)
         status =
             film_init(&r->log, s->picture.width, s->picture.height, s->options.keep_aovs, &r->film);
     if (!status)
+        status = lights_init(r->source, s->picture.light, &s->lights);
+    if (!status)
+        status = prepare_sky(before, r);
+    if (!status)
+        status = prepare_world(before, r);
+    if (status)
+        return status;
+    if (before)
+        s->albedo = before->scene.albedo;
+    else
         albedo_init(&s->albedo);
+    return AG_OK;
+}
+
+// Free all that it does not share with `kept` (NULL: nothing), and itself.
+static void leave(ag_reference *r, const ag_reference *kept)
+{
+    film_finish(&r->film);
+    lights_finish(&r->scene.lights);
+    if (!kept || r->scene.emitters.where != kept->scene.emitters.where)
+        emitters_finish(&r->scene.emitters);
+    if (!kept || r->scene.sky.sums != kept->scene.sky.sums)
+        sky_finish(&r->scene.sky);
+    world_leave(&r->scene.world, kept ? &kept->scene.world : NULL);
+    free(r);
+}
+
+static ag_status make(const ag_scene *scene, const ag_camera_desc *camera,
+                      const ag_render_options *picture, const ag_reference_options *options,
+                      const ag_reference *before, ag_reference **made)
+{
+    double start = clock_ms();
+    ag_reference *r = aligned_alloc(_Alignof(ag_reference), sizeof *r);
+    if (!r)
+        return log_fail(&scene->log, AG_ERROR_MEMORY, "no memory for a reference");
+    *r = (ag_reference) { .log = scene->log,
+                          .source = scene,
+                          .revision = scene->revision,
+                          .materials_revision = scene->materials_revision,
+                          .environment_revision = scene->environment_revision };
+    if (picture)
+        r->scene.picture = *picture;
+    if (options)
+        r->scene.options = *options;
+    ag_status status = prepare(camera, before, r);
+    r->prepare_ms = clock_ms() - start;
+    *made = r;
     return status;
 }
 
@@ -64,39 +129,44 @@ ag_status ag_reference_create(const ag_scene *scene, const ag_camera_desc *camer
                               const ag_render_options *picture, const ag_reference_options *options,
                               ag_reference **reference)
 {
-    *reference = NULL;
-    double start = clock_ms();
-    ag_reference *r = aligned_alloc(_Alignof(ag_reference), sizeof *r);
-    if (!r)
-        return log_fail(&scene->log, AG_ERROR_MEMORY, "no memory for a reference");
-    *r = (ag_reference) { .log = scene->log };
-    if (picture)
-        r->scene.picture = *picture;
-    if (options)
-        r->scene.options = *options;
-    ag_status status = prepare(scene, camera, r);
+    ag_reference *made = NULL;
+    ag_status status = make(scene, camera, picture, options, NULL, &made);
     if (status) {
-        ag_reference_destroy(r);
-        return status;
+        ag_reference_destroy(made);
+        made = NULL;
     }
-    r->prepare_ms = clock_ms() - start;
-    *reference = r;
-    return AG_OK;
+    *reference = made;
+    return status;
+}
+
+ag_status ag_reference_restart(ag_reference *r, const ag_camera_desc *camera,
+                               const ag_render_options *picture,
+                               const ag_reference_options *options)
+{
+    ag_reference *next = NULL;
+    ag_status status = make(r->source, camera, picture, options, r, &next);
+    if (!status) { // what is to go away comes to lie in `next`
+        ag_reference before = *r;
+        *r = *next;
+        *next = before;
+        r->scene.emitters.world = &r->scene.world;
+        next->scene.emitters.world = &next->scene.world;
+    }
+    if (next)
+        leave(next, r);
+    return status;
 }
 
 void ag_reference_destroy(ag_reference *r)
 {
-    if (!r)
-        return;
-    film_finish(&r->film);
-    emitters_finish(&r->scene.emitters);
-    lights_finish(&r->scene.lights);
-    sky_finish(&r->scene.sky);
-    world_destroy(&r->scene.world);
-    free(r);
+    if (r)
+        leave(r, NULL);
 }
 
 // ---- Tracing -----------------------------------------------------------------------
+
+// At most so many of each pixel of a tile before it is asked whether to go on: 1024 paths.
+enum { SAMPLES_AT_ONCE = 4 };
 
 // Samples [from, to) of every pixel.
 typedef struct pass {
@@ -113,11 +183,11 @@ typedef struct pass {
 
 // As many pixels of a row at a time as fill a bundle.
 static uint32_t trace_pixels(pass *p, uint32_t x, uint32_t right, uint32_t y, uint32_t from,
-                             unsigned long long *rays)
+                             uint32_t each, unsigned long long *rays)
 {
     path_work work[PATH_BUNDLE] = { 0 };
     path_result results[PATH_BUNDLE];
-    uint32_t each = p->to - from, pixels = PATH_BUNDLE / each;
+    uint32_t pixels = PATH_BUNDLE / each;
     pixels = pixels < right - x ? pixels : right - x;
     for (uint32_t i = 0; i < pixels; i++)
         work[i] = (path_work) { x + i, y, from, each };
@@ -132,43 +202,47 @@ static uint32_t trace_pixels(pass *p, uint32_t x, uint32_t right, uint32_t y, ui
 static void trace_tile(pass *p, uint32_t tile)
 {
     film *f = &p->reference->film;
-    uint32_t left = tile % f->columns * FILM_TILE, top = tile / f->columns * FILM_TILE;
-    uint32_t right = left + FILM_TILE < f->width ? left + FILM_TILE : f->width;
-    uint32_t bottom = top + FILM_TILE < f->height ? top + FILM_TILE : f->height;
+    uint32_t left = tile % f->columns * FILM_TILE_WIDTH, right = left + FILM_TILE_WIDTH;
+    uint32_t top = tile / f->columns * FILM_TILE_HEIGHT, bottom = top + FILM_TILE_HEIGHT;
+    right = right < f->width ? right : f->width;
+    bottom = bottom < f->height ? bottom : f->height;
+    uint32_t from = f->samples[tile], each = p->to - from;
+    each = each < SAMPLES_AT_ONCE ? each : SAMPLES_AT_ONCE;
     unsigned long long rays = 0;
-    if (f->samples[tile] >= p->to) // by a call that was stopped
-        return;
     for (uint32_t y = top; y < bottom; y++)
         for (uint32_t x = left; x < right;)
-            x += trace_pixels(p, x, right, y, f->samples[tile], &rays);
-    f->samples[tile] = p->to;
+            x += trace_pixels(p, x, right, y, from, each, &rays);
+    f->samples[tile] = from + each;
     atomic_fetch_add(&p->rays, rays);
 }
 
-static bool goes_on(pass *p, size_t tiles)
+static bool goes_on(pass *p)
 {
-    if (clock_ms() > p->deadline_ms && p->from > 0)
+    if (p->stopped || (clock_ms() > p->deadline_ms && p->from > 0))
         return false;
     const ag_progress *progress = &p->goal->progress;
     if (!progress->update || !pthread_equal(pthread_self(), p->caller))
         return true;
     size_t all = (size_t)p->reference->film.columns * p->reference->film.rows;
-    double fraction = p->done + p->share * (double)tiles / (double)all;
+    double fraction = p->done + p->share * (double)p->tiles / (double)all;
     if (progress->update(progress->user, "trace", fraction < 1 ? fraction : 1))
         return true;
     p->cancelled = true;
     return false;
 }
 
+// A call that was stopped may have left some of a tile's samples to this one.
 static void run_tile(void *context, size_t index)
 {
     pass *p = context;
-    if (p->stopped)
-        return;
-    if (!goes_on(p, atomic_fetch_add(&p->tiles, 1)))
-        p->stopped = true;
-    else
-        trace_tile(p, (uint32_t)index);
+    const uint32_t *samples = &p->reference->film.samples[index];
+    while (*samples < p->to && !p->stopped) {
+        if (goes_on(p))
+            trace_tile(p, (uint32_t)index);
+        else
+            p->stopped = true;
+    }
+    atomic_fetch_add(&p->tiles, 1);
 }
 
 // How far the call is, by the goal that is nearest.

@@ -193,17 +193,22 @@ static ag_status fill(trace_sky *s)
     return AG_OK;
 }
 
+void sky_turn(const ag_scene *scene, trace_sky *s)
+{
+    s->intensity = scene->environment_intensity;
+    s->cosine = cosf(scene->environment_rotation_rad);
+    s->sine = sinf(scene->environment_rotation_rad);
+}
+
 ag_status sky_init(const ag_scene *scene, trace_sky *s)
 {
-    *s = (trace_sky) {
-        .scene = scene,
-        .intensity = scene->environment_intensity,
-        .cosine = cosf(scene->environment_rotation_rad),
-        .sine = sinf(scene->environment_rotation_rad),
-    };
+    *s = (trace_sky) { .scene = scene };
+    sky_turn(scene, s);
     ag_status status = scene_environment_open(scene, &s->image);
     if (status || !s->image)
         return status;
+    if (s->image != scene->environment)
+        s->owned = (ag_image *)(uintptr_t)s->image;
     s->columns = s->image->width < COLUMNS_MAX ? (int)s->image->width : COLUMNS_MAX;
     s->rows = s->image->height < ROWS_MAX ? (int)s->image->height : ROWS_MAX;
     status = fill(s);
@@ -214,8 +219,7 @@ ag_status sky_init(const ag_scene *scene, trace_sky *s)
 
 void sky_finish(trace_sky *s)
 {
-    if (s->scene)
-        scene_environment_close(s->scene, s->image);
+    ag_image_destroy(s->owned);
     free(s->sums);
     free(s->guides);
     free(s->heights);

@@ -16,6 +16,7 @@ typedef struct sky_line {
 typedef struct trace_sky {
     const ag_scene *scene;
     const ag_image *image;         // NULL -> black everywhere
+    ag_image *owned;               // the same, where the scene does not have it
     float intensity, cosine, sine; // of its rotation
     int columns, rows;             // of the distribution's cells
     float *sums;                   // [rows][columns + 1], then [rows + 1] of the rows themselves
@@ -25,6 +26,9 @@ typedef struct trace_sky {
 
 AG_CHECK ag_status sky_init(const ag_scene *scene, trace_sky *s);
 void sky_finish(trace_sky *s); // zero is allowed
+
+// Take the scene's rotation and intensity.
+void sky_turn(const ag_scene *scene, trace_sky *s);
 
 // A direction of the sky: its light, nit, bilinear between the image's pixels, and the density
 // with which sky_sample() draws it, 1/sr.

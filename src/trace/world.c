@@ -7,6 +7,8 @@
 #include "image/srgb.h"
 #include "trace/sampler.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 // ---- Instances -----------------------------------------------------------------
@@ -25,6 +27,14 @@ static void set_frame(const float w[16], world_instance *i)
     i->ny = cross(z, x);
     i->nz = cross(x, y);
     i->flip = dot(x, i->nx) < 0 ? -1 : 1;
+}
+
+enum { FILTER_SIDES = 1, FILTER_HOLES = 2 };
+
+static uint8_t filters_for(const ag_material_desc *m)
+{
+    return (uint8_t)((m->double_sided ? 0 : FILTER_SIDES) |
+                     (m->alpha_mode != AG_ALPHA_OPAQUE ? FILTER_HOLES : 0));
 }
 
 static ag_status make_instances(const ag_scene *scene, world *w)
@@ -49,6 +59,7 @@ static ag_status make_instances(const ag_scene *scene, world *w)
             .textures = &w->textures[from->material],
             .model = material_model(&scene->materials[from->material]),
             .moved = shown[from->mesh] > 1,
+            .filters = filters_for(&scene->materials[from->material]),
         };
         set_frame(from->world, to);
     }
@@ -204,11 +215,11 @@ static RTCGeometry new_triangles(const world *w, const scene_mesh *mesh, const w
 }
 
 // Filters cost a call at every hit: only where a material needs them.
-static void set_filters(RTCGeometry g, bool culled, bool partial)
+static void set_filters(RTCGeometry g, unsigned filters)
 {
-    if (culled || partial)
+    if (filters)
         rtcSetGeometryIntersectFilterFunction(g, filter);
-    if (partial)
+    if (filters & FILTER_HOLES)
         rtcSetGeometryOccludedFilterFunction(g, filter);
 }
 
@@ -220,8 +231,39 @@ static RTCScene new_scene(const world *w)
     return s;
 }
 
+// A tree that grows, on many threads; the caller's alone may say how far it is.
+typedef struct growth {
+    const ag_progress *progress;
+    pthread_t caller;
+    atomic_bool stopped;
+} growth;
+
+static bool goes_on(void *user, double fraction)
+{
+    growth *g = user;
+    const ag_progress *p = g->progress;
+    if (!g->stopped && p && p->update && pthread_equal(pthread_self(), g->caller) &&
+        !p->update(p->user, "prepare", fmin(fmax(fraction, 0), 1)))
+        g->stopped = true;
+    return !g->stopped;
+}
+
+static ag_status commit(const world *w, RTCScene s)
+{
+    growth g = { .progress = w->progress, .caller = pthread_self() };
+    if (goes_on(&g, 0)) {
+        rtcSetSceneProgressMonitorFunction(s, goes_on, &g);
+        rtcCommitScene(s);
+        rtcSetSceneProgressMonitorFunction(s, NULL, NULL);
+    }
+    bool failed = rtcGetDeviceError(w->device) != RTC_ERROR_NONE;
+    if (g.stopped)
+        return log_fail(&w->log, AG_ERROR_CANCELLED, "preparing the reference was stopped");
+    return failed ? no_memory(w) : AG_OK;
+}
+
 // The tree of a mesh that is shown more than once; its geometry has the filters of the neediest.
-static ag_status make_mesh(const ag_scene *scene, world *w, size_t mesh, bool culled, bool partial)
+static ag_status make_mesh(const ag_scene *scene, world *w, size_t mesh, unsigned filters)
 {
     RTCGeometry g = new_triangles(w, &scene->meshes[mesh], NULL);
     RTCScene s = g ? new_scene(w) : NULL;
@@ -230,31 +272,27 @@ static ag_status make_mesh(const ag_scene *scene, world *w, size_t mesh, bool cu
             rtcReleaseGeometry(g);
         return no_memory(w);
     }
-    set_filters(g, culled, partial);
+    set_filters(g, filters);
     rtcCommitGeometry(g);
     rtcAttachGeometry(s, g);
     rtcReleaseGeometry(g);
-    rtcCommitScene(s);
     w->meshes[mesh] = s;
-    return AG_OK;
+    return commit(w, s);
 }
 
 static ag_status make_meshes(const ag_scene *scene, world *w)
 {
     w->mesh_count = scene->meshes_count;
     w->meshes = calloc(scene->meshes_count + 1, sizeof(RTCScene));
-    uint8_t *needs = calloc(scene->meshes_count + 1, 1); // 1 shown, 2 culled, 4 partial
+    enum { SHOWN = 0x80 };
+    uint8_t *needs = calloc(scene->meshes_count + 1, 1);
     ag_status status = w->meshes && needs ? AG_OK : no_memory(w);
-    for (size_t i = 0; i < w->instance_count && !status; i++) {
-        const world_instance *instance = &w->instances[i];
-        if (instance->moved)
-            needs[scene->instances[i].mesh] |=
-                (uint8_t)(1 | (instance->material->double_sided ? 0 : 2) |
-                          (instance->material->alpha_mode != AG_ALPHA_OPAQUE ? 4 : 0));
-    }
+    for (size_t i = 0; i < w->instance_count && !status; i++)
+        if (w->instances[i].moved)
+            needs[scene->instances[i].mesh] |= SHOWN | w->instances[i].filters;
     for (size_t i = 0; i < scene->meshes_count && !status; i++)
         if (needs[i])
-            status = make_mesh(scene, w, i, needs[i] & 2, needs[i] & 4);
+            status = make_mesh(scene, w, i, needs[i] & (FILTER_SIDES | FILTER_HOLES));
     free(needs);
     return status;
 }
@@ -284,19 +322,17 @@ static ag_status attach_all(const ag_scene *scene, world *w)
         if (!g)
             return no_memory(w);
         if (!instance->moved)
-            set_filters(g, !instance->material->double_sided,
-                        instance->material->alpha_mode != AG_ALPHA_OPAQUE);
+            set_filters(g, instance->filters);
         rtcCommitGeometry(g);
         rtcAttachGeometryByID(w->top, g, (unsigned)i);
         rtcReleaseGeometry(g);
     }
-    rtcCommitScene(w->top);
-    return rtcGetDeviceError(w->device) == RTC_ERROR_NONE ? AG_OK : no_memory(w);
+    return commit(w, w->top);
 }
 
-ag_status world_create(const ag_scene *scene, world *w)
+ag_status world_create(const ag_scene *scene, const ag_progress *progress, world *w)
 {
-    *w = (world) { .log = scene->log };
+    *w = (world) { .log = scene->log, .progress = progress };
     srgb_decoder_init(w->decode);
     w->device = rtcNewDevice(NULL);
     if (!w->device)
@@ -308,12 +344,36 @@ ag_status world_create(const ag_scene *scene, world *w)
         status = make_meshes(scene, w);
     if (!status)
         status = attach_all(scene, w);
+    w->progress = NULL;
     if (status)
         world_destroy(w);
     return status;
 }
 
-void world_destroy(world *w)
+static bool filters_hold(const ag_scene *scene, const world *w)
+{
+    for (size_t i = 0; i < w->instance_count; i++)
+        if (filters_for(&scene->materials[scene->instances[i].material]) & ~w->instances[i].filters)
+            return false;
+    return true;
+}
+
+ag_status world_renew(const ag_scene *scene, const world *from, const ag_progress *progress,
+                      world *w)
+{
+    if (!filters_hold(scene, from))
+        return world_create(scene, progress, w);
+    *w = *from;
+    ag_status status = make_instances(scene, w);
+    if (status)
+        world_leave(w, from);
+    else
+        for (size_t i = 0; i < w->instance_count; i++)
+            w->instances[i].filters = from->instances[i].filters;
+    return status;
+}
+
+static void release_trees(world *w)
 {
     for (size_t i = 0; i < w->mesh_count && w->meshes; i++)
         if (w->meshes[i])
@@ -323,9 +383,22 @@ void world_destroy(world *w)
     if (w->device)
         rtcReleaseDevice(w->device);
     free(w->meshes);
-    free(w->instances);
-    free(w->textures);
+}
+
+void world_leave(world *w, const world *kept)
+{
+    if (!kept || w->device != kept->device)
+        release_trees(w);
+    if (!kept || w->instances != kept->instances)
+        free(w->instances);
+    if (!kept || w->textures != kept->textures)
+        free(w->textures);
     *w = (world) { 0 };
+}
+
+void world_destroy(world *w)
+{
+    world_leave(w, NULL);
 }
 
 // ---- Rays ------------------------------------------------------------------------

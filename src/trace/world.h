@@ -17,7 +17,8 @@ typedef struct world_instance {
     const scene_mesh *mesh;
     const ag_material_desc *material;
     const texture_set *textures;
-    bool moved; // its triangles are in object space: a mesh that is shown more than once
+    bool moved;      // its triangles are in object space: a mesh that is shown more than once
+    uint8_t filters; // what its triangles are looked at for when a ray meets them
 } world_instance;
 
 typedef struct world {
@@ -27,8 +28,9 @@ typedef struct world {
     size_t mesh_count;
     world_instance *instances;
     size_t instance_count;
-    texture_set *textures; // by material
-    float decode[256];     // of sRGB
+    texture_set *textures;       // by material
+    float decode[256];           // of sRGB
+    const ag_progress *progress; // while it is made
     ag_log log;
 } world;
 
@@ -47,9 +49,17 @@ typedef struct hit {
     vec3 normal; // geometric, world space, to the side of the front; not unit
 } hit;
 
-// `scene` is borrowed.
-AG_CHECK ag_status world_create(const ag_scene *scene, world *w);
+// `scene` is borrowed; `progress`: stage "prepare".
+AG_CHECK ag_status world_create(const ag_scene *scene, const ag_progress *progress, world *w);
 void world_destroy(world *w); // zero is allowed
+
+// The world of a scene whose materials alone have changed since `from` was made: shares the trees
+// with it where they still hold.
+AG_CHECK ag_status world_renew(const ag_scene *scene, const world *from,
+                               const ag_progress *progress, world *w);
+
+// As world_destroy, but what it shares with `kept` (NULL: nothing) stays.
+void world_leave(world *w, const world *kept);
 
 // The first thing on a ray, if any.  Any number of threads may ask.
 bool world_closest(const world *w, const ray *r, hit *h);

@@ -228,7 +228,7 @@ static void the_nearest_is_found(void **state)
     ag_scene *scene = everything();
     world w;
     uint32_t seed = 3, met = 0, doubtful = 0;
-    OK(world_create(scene, &w));
+    OK(world_create(scene, NULL, &w));
     for (int i = 0; i < RAYS; i++) {
         const ray r = random_ray(&seed);
         found f = searched(scene, &r);
@@ -257,7 +257,7 @@ static void what_is_in_the_way_is_found(void **state)
     ag_scene *scene = everything();
     world w;
     uint32_t seed = 4, blocked = 0;
-    OK(world_create(scene, &w));
+    OK(world_create(scene, NULL, &w));
     for (int i = 0; i < RAYS; i++) {
         ray r = random_ray(&seed);
         r.from_eye = false; // shadows do not know sides
@@ -283,7 +283,7 @@ static void glass_is_partly_there(void **state)
     stage_show(scene, stage_floor(scene, 0, 1), &glass, NULL);
     world w;
     uint32_t seed = 5, met = 0;
-    OK(world_create(scene, &w));
+    OK(world_create(scene, NULL, &w));
     for (uint32_t i = 0; i < RAYS; i++) {
         ray r = { .origin = { noise(&seed) - 0.5f, 1, 0.2f },
                   .direction = { 0, -1, 0 },

@@ -213,7 +213,7 @@ static void what_shines_is_drawn_by_its_density(void **state)
     ag_scene *scene = shining(positions);
     world w;
     emitters e;
-    OK(world_create(scene, &w));
+    OK(world_create(scene, NULL, &w));
     OK(emitters_init(&w, &e));
     for (int k = 0; k < 3; k++) {
         vec3 from = { places[k][0], places[k][1], places[k][2] };
