@@ -536,7 +536,7 @@ static void test_at_rest_nothing_moves(void **state)
     navigation_step(&n, 1);
     navigation_step(&n, 0);
     navigation_step(&n, -1);
-    navigation_step(&n, NAN);
+    navigation_step(&n, (double)NAN);
     ag_camera_desc after = navigation_camera(&n);
     assert_memory_equal(&before, &after, sizeof before);
 }
