@@ -13,8 +13,8 @@ struct panel {
     text *t;
     ag_image *image;
     uint64_t revision;
-    uint64_t content, labels; // hashes of what is shown
-    float column;             // px, as wide as it was since the labels are these
+    uint64_t content, head; // hashes of what is shown and of how it begins
+    float column;           // px, the widest since it begins so
 };
 
 static ag_status no_memory(const ag_log *log)
@@ -352,17 +352,15 @@ static uint64_t hash_room(panel_room room)
     return hash(h, &room.scale, sizeof room.scale);
 }
 
-static void hash_rows(const panel_row *rows, size_t count, panel_room room, uint64_t *content,
-                      uint64_t *labels)
+static uint64_t hash_rows(const panel_row *rows, size_t count, panel_room room)
 {
-    *content = *labels = hash_room(room);
+    uint64_t h = hash_room(room);
     for (size_t i = 0; i < count; i++) {
-        *labels = hash(*labels, &rows[i].kind, sizeof rows[i].kind);
-        *labels = hash_text(*labels, rows[i].left);
-        *content = hash_text(hash_text(*content, rows[i].left), rows[i].right);
-        *content = hash(*content, &rows[i].kind, sizeof rows[i].kind);
-        *content = hash(*content, &rows[i].fraction, sizeof rows[i].fraction);
+        h = hash_text(hash_text(h, rows[i].left), rows[i].right);
+        h = hash(h, &rows[i].kind, sizeof rows[i].kind);
+        h = hash(h, &rows[i].fraction, sizeof rows[i].fraction);
     }
+    return h;
 }
 
 static void clear(panel *p)
@@ -371,7 +369,7 @@ static void clear(panel *p)
         return;
     ag_image_destroy(p->image);
     p->image = NULL;
-    p->content = p->labels = 0;
+    p->content = p->head = 0;
     p->revision++;
 }
 
@@ -381,18 +379,18 @@ ag_status panel_show(panel *p, const panel_row *rows, size_t count, panel_room r
         clear(p);
         return AG_OK;
     }
-    uint64_t content, labels;
-    hash_rows(rows, count, room, &content, &labels);
+    uint64_t content = hash_rows(rows, count, room);
+    uint64_t head = hash_text(hash_room(room), rows[0].left);
     if (p->image && content == p->content)
         return AG_OK;
     layout l = { .d.t = p->t, .places = calloc(count, sizeof *l.places) };
     if (!l.places)
         return no_memory(&p->log);
-    lay_out(&l, rows, count, room, labels == p->labels ? p->column : 0);
+    lay_out(&l, rows, count, room, head == p->head ? p->column : 0);
     ag_status status = make_image(p, &l, rows, count, room);
     if (!status) {
         p->content = content;
-        p->labels = labels;
+        p->head = head;
         p->column = l.column;
     }
     free(l.places);

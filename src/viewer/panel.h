@@ -37,9 +37,9 @@ ag_status panel_create(const ag_log *log, text *t, panel **made);
 void panel_destroy(panel *p); // NULL is allowed
 
 // Show these rows; none -> nothing.  Sections flow into columns where they would be too tall, and
-// letters shrink to half their size before anything is cut off.  While kinds and left texts stay,
-// the panel never gets narrower, so that changing numbers do not make it tremble.  Where nothing
-// changed nothing is done.  AG_ERROR_MEMORY keeps what was shown.
+// letters shrink to half their size before anything is cut off.  While the first row's left text
+// stays, the panel never gets narrower, so that changing numbers do not make it tremble.  Where
+// nothing changed nothing is done.  AG_ERROR_MEMORY keeps what was shown.
 ag_status panel_show(panel *p, const panel_row *rows, size_t count, panel_room room);
 
 // The panel as RGBA8, straight alpha, sRGB-coded, to be mixed as such; NULL while it is empty.

@@ -160,6 +160,9 @@ static void test_changing_numbers_keep_the_width(void **state)
         row.right = values[i];
         assert_int_equal(ag_image_width(show(s, &row, 1, desk)), width);
     }
+    const panel_row rows[] = { { .left = "frame", .right = "1 ms" },
+                               { .left = "now", .right = "and then" } };
+    assert_int_equal(ag_image_width(show(s, rows, 2, desk)), width);
     row.left = "at";
     row.right = "1";
     assert_true(ag_image_width(show(s, &row, 1, desk)) < width);
