@@ -331,6 +331,19 @@ typedef struct ag_environment_desc {
 // negative intensity, or a number that is not finite.
 AG_CHECK ag_status ag_scene_set_environment(ag_scene *scene, const ag_environment_desc *desc);
 
+// ---- Keeping it ------------------------------------------------------------
+
+// Write the scene as glTF 2.0 in its binary form (.glb), whatever the path's ending, so that
+// ag_scene_load reads back what is seen: instances with their meshes, materials and textures
+// (as PNG), lights, cameras, environment and exposure, all numbers exactly.  What glTF and its
+// ratified extensions have no word for stands in extensions of Argand's own (docs/gltf.md).
+// Lost are: what no instance shows, files' hierarchies, skins and morph targets (their pose
+// stays), and the format of images.  The file appears whole or not at all: it is written
+// beside its place and renamed.  Reads the scene only.  AG_ERROR_FILE where it cannot be
+// written, AG_ERROR_ARGUMENT when the scene's images were released (ag_renderer_take),
+// AG_ERROR_UNSUPPORTED above 4 GiB.
+AG_CHECK ag_status ag_scene_save(const ag_scene *scene, const char *path);
+
 // ---- Asking it -------------------------------------------------------------
 
 typedef struct ag_scene_summary {

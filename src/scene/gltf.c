@@ -91,7 +91,7 @@ static ag_status fill_scene(gltf_file *file)
         status = gltf_materials_add(file);
     if (!status)
         status = gltf_instances_add(file);
-    return status ? status : gltf_exposure_read(file);
+    return status ? status : gltf_surround_read(file);
 }
 
 ag_status gltf_import(ag_scene *scene, const char *path, void *bytes, size_t size,

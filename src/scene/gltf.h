@@ -13,6 +13,13 @@
 
 #define GLTF_NONE UINT32_MAX // no index given
 
+// The container of a .glb (spec 4.4).
+enum {
+    GLB_MAGIC = 0x46546C67,      // "glTF"
+    GLB_CHUNK_JSON = 0x4E4F534A, // "JSON"
+    GLB_CHUNK_BIN = 0x004E4942,  // "BIN\0"
+};
+
 // ---- gltf_accessor.c, gltf_file.c: binary data ------------------------------------
 
 typedef struct gltf_buffer {
@@ -74,6 +81,19 @@ typedef struct gltf_skin {
 } gltf_skin;
 
 // ---- Pictures and materials ----------------------------------------------------------
+
+// The numbers of OpenGL that samplers use.
+enum {
+    GLTF_NEAREST = 9728,
+    GLTF_LINEAR = 9729,
+    GLTF_NEAREST_MIPMAP_NEAREST = 9984,
+    GLTF_LINEAR_MIPMAP_NEAREST = 9985,
+    GLTF_NEAREST_MIPMAP_LINEAR = 9986,
+    GLTF_LINEAR_MIPMAP_LINEAR = 9987,
+    GLTF_REPEAT = 10497,
+    GLTF_CLAMP_TO_EDGE = 33071,
+    GLTF_MIRRORED_REPEAT = 33648,
+};
 
 typedef struct gltf_texture {
     bool used;
@@ -229,9 +249,12 @@ AG_CHECK ag_status gltf_materials_add(gltf_file *file);
 AG_CHECK ag_status gltf_instances_add(gltf_file *file);
 AG_CHECK ag_status gltf_lights_add(gltf_file *file, uint32_t node);
 AG_CHECK ag_status gltf_camera_add(gltf_file *file, uint32_t node);
-AG_CHECK ag_status gltf_exposure_read(gltf_file *file); // into the scene; the last step
+AG_CHECK ag_status gltf_surround_read(gltf_file *file); // into the scene; the last step
 
 AG_CHECK ag_status gltf_progress(gltf_file *file, const char *stage, double fraction);
+
+// gltf_material_argand.c: ARGAND_materials of a material.
+AG_CHECK ag_status gltf_material_read_argand(const gltf_at *material, ag_material_desc *desc);
 
 // Take `count` off one of the file's budgets, which grow with its size, so that a small
 // file cannot take memory or time without bound by naming the same bytes again and again:
@@ -317,6 +340,7 @@ AG_CHECK ag_status gltf_light_read_kind(const gltf_at *light, const gltf_light_k
 // Read what each extension has besides colour and intensity.
 AG_CHECK ag_status gltf_light_read_area(const gltf_at *light, ag_light_desc *desc);
 AG_CHECK ag_status gltf_light_read_argand(const gltf_at *light, ag_light_desc *desc);
+extern const gltf_light_kind gltf_light_argand_kinds[];
 
 // ---- gltf_matrix.c: column-major 4x4 in double -----------------------------------------------
 
@@ -327,5 +351,7 @@ double gltf_matrix_determinant(const double m[16]); // of the upper left 3x3
 // The cofactors of the upper left 3x3: what turns normals, up to scale and the sign of
 // the determinant, and needs no inverse.
 void gltf_matrix_cofactor(const double m[16], double c[9]);
+// Squeezed to a line or a point there is no surface left; scale 0 hides things so.
+bool gltf_matrix_is_collapsed(const double m[16]);
 
 #endif

@@ -1,5 +1,7 @@
 // Cameras (spec 3.10): each looks along its node's -Z with +Y up; scale does not touch it.
+// ARGAND_cameras (docs/gltf.md) keeps what rounding would lose.
 #include "scene/gltf.h"
+#include "scene/vector.h"
 
 #include <float.h>
 #include <math.h>
@@ -70,6 +72,42 @@ static void place(const double world[16], ag_camera_desc *desc)
     }
 }
 
+// Whether a view that was written beside a node is still that of the node: where it has been
+// turned since, the node counts.
+static bool agrees(const ag_camera_desc *desc, const float target[3], const float up[3])
+{
+    vec3 forward = vec3_unit(vec3_sub(vec3_from(desc->target), vec3_from(desc->position)));
+    vec3 way = vec3_sub(vec3_from(target), vec3_from(desc->position));
+    vec3 right = vec3_cross(forward, vec3_from(desc->up)), wanted = vec3_unit(vec3_from(up));
+    vec3 off = vec3_sub(vec3_unit(way), forward);
+    return vec3_dot(off, off) < 1e-6f && fabsf(vec3_dot(wanted, right)) < 1e-3f &&
+           vec3_dot(wanted, vec3_from(desc->up)) > -1e-3f;
+}
+
+static ag_status read_argand(const gltf_at *camera, ag_camera_desc *desc)
+{
+    gltf_at at;
+    bool fit_near = false, fit_far = false;
+    float target[3] = { 0 }, up[3] = { 0 };
+    ag_status status = gltf_extension(camera, "ARGAND_cameras", &at);
+    if (status || !at.json)
+        return status;
+    status = gltf_floats(&at, "target", 3, target);
+    if (!status)
+        status = gltf_floats(&at, "up", 3, up);
+    if (!status)
+        status = gltf_bool(&at, "fitNear", &fit_near);
+    if (!status)
+        status = gltf_bool(&at, "fitFar", &fit_far);
+    desc->near_m = fit_near ? 0.0f : desc->near_m;
+    desc->far_m = fit_far ? 0.0f : desc->far_m;
+    if (!status && agrees(desc, target, up)) {
+        memcpy(desc->target, target, sizeof target);
+        memcpy(desc->up, up, sizeof up);
+    }
+    return status;
+}
+
 ag_status gltf_camera_add(gltf_file *file, uint32_t node)
 {
     gltf_at root = gltf_root(file), cameras = gltf_member(&root, "cameras");
@@ -95,6 +133,9 @@ ag_status gltf_camera_add(gltf_file *file, uint32_t node)
     if (status)
         return status;
     place(file->nodes[node].world, &desc);
+    status = read_argand(&at, &desc);
+    if (status)
+        return status;
     ag_camera camera;
     return ag_scene_add_camera(file->scene, &desc, &camera);
 }

@@ -12,10 +12,13 @@ enum { EXTENSIONS_MAX = 256 };
 static bool is_supported(const char *name)
 {
     static const char *const known[] = {
-        "ARGAND_lights",          "EXT_lights_area",          "EXT_texture_webp",
-        "KHR_lights_punctual",    "KHR_materials_anisotropy", "KHR_materials_emissive_strength",
-        "KHR_materials_ior",      "KHR_materials_specular",   "KHR_materials_unlit",
-        "KHR_materials_variants", "KHR_mesh_quantization",    "KHR_texture_transform",
+        "ARGAND_cameras",           "ARGAND_lights",
+        "ARGAND_materials",         "EXT_lights_area",
+        "EXT_texture_webp",         "KHR_lights_punctual",
+        "KHR_materials_anisotropy", "KHR_materials_emissive_strength",
+        "KHR_materials_ior",        "KHR_materials_specular",
+        "KHR_materials_unlit",      "KHR_materials_variants",
+        "KHR_mesh_quantization",    "KHR_texture_transform",
         "KHR_xmp_json_ld",
     };
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)

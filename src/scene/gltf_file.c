@@ -6,12 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    GLB_MAGIC = 0x46546C67,      // "glTF"
-    GLB_CHUNK_JSON = 0x4E4F534A, // "JSON"
-    GLB_CHUNK_BIN = 0x004E4942,  // "BIN\0"
-};
-
 static uint32_t read_u32(const uint8_t *bytes)
 {
     return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;

@@ -5,17 +5,6 @@
 
 enum { INSTANCE_WORK = 64 }; // what one counts, in rows read
 
-// Squeezed to a line or a point there is no surface left; scale 0 hides things so.
-static bool is_collapsed(const double world[16])
-{
-    double cofactor[9];
-    gltf_matrix_cofactor(world, cofactor);
-    for (int i = 0; i < 9; i++)
-        if (cofactor[i] > 0.0 || cofactor[i] < 0.0)
-            return false;
-    return true;
-}
-
 static ag_status name_instance(const gltf_at *primitive, uint32_t index, ag_instance instance)
 {
     gltf_at root = gltf_root(primitive->file), nodes = gltf_member(&root, "nodes");
@@ -39,7 +28,7 @@ static ag_status add_instance(const gltf_at *primitive, uint32_t index)
         status = gltf_index(primitive, "material", file->material_count, "materials", &material);
     if (!status)
         status = gltf_primitive_add(primitive, index, &mesh, &posed);
-    if (status || !mesh.id || (!posed && is_collapsed(node->world)))
+    if (status || !mesh.id || (!posed && gltf_matrix_is_collapsed(node->world)))
         return status;
     float world[16];
     for (int i = 0; i < 16; i++)

@@ -130,11 +130,13 @@ ag_status gltf_lights_of_node(const gltf_at *at, gltf_node *node)
     return status;
 }
 
-// The unit vector of a column of `world`, `sign` times; zero where it has no length.
+// The unit vector of a column of `world`, `sign` times; zero where it has no length.  One that is
+// unit to a float's precision is kept, so that what was written is read back.
 static void take_axis(const double world[16], int column, double sign, float out[3])
 {
     const double *axis = &world[4 * column];
-    double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+    double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
+    double length = fabs(square - 1.0) <= (double)FLT_EPSILON ? 1.0 : sqrt(square);
     for (int i = 0; i < 3 && length > 0.0; i++)
         out[i] = (float)(sign * axis[i] / length);
 }
@@ -149,7 +151,8 @@ static double largest_scale(const double world[16])
     return sqrt(square);
 }
 
-static void place(const double world[16], ag_light_desc *desc)
+// Sizes of ARGAND_lights are metres whatever the scale; those of EXT_lights_area grow with it.
+static void place(const double world[16], bool grows, ag_light_desc *desc)
 {
     for (int i = 0; i < 3; i++)
         desc->position[i] = (float)world[12 + i];
@@ -161,6 +164,8 @@ static void place(const double world[16], ag_light_desc *desc)
     if (desc->kind != AG_LIGHT_RECT && desc->kind != AG_LIGHT_DISK)
         return;
     take_axis(world, 1, 1.0, desc->up);
+    if (!grows)
+        return;
     float *const sizes[] = { &desc->radius_m, &desc->width_m, &desc->height_m };
     for (int i = 0; i < 3; i++)
         *sizes[i] = (float)fmin((double)*sizes[i] * largest_scale(world), (double)FLT_MAX);
@@ -194,7 +199,7 @@ static ag_status add_light(gltf_file *file, uint32_t node, int which)
     // A black light would come out white: zero stands for the default there.
     if (status || is_black(desc.color))
         return status;
-    place(file->nodes[node].world, &desc);
+    place(file->nodes[node].world, which == GLTF_LIGHT_AREA, &desc);
     ag_light light;
     return ag_scene_add_light(file->scene, &desc, &light);
 }

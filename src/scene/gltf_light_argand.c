@@ -1,7 +1,4 @@
-// ARGAND_lights: the lights that no other extension has, and the exposure
-// (docs/ARGAND_lights.md).
-#include <argand/eye.h>
-
+// ARGAND_lights: the lights that no other extension has (docs/ARGAND_lights.md).
 #include "scene/gltf.h"
 
 #include <float.h>
@@ -19,6 +16,12 @@ static ag_status read_tube(const gltf_at *light, ag_light_desc *desc)
 {
     ag_status status = read_metres(light, "length", &desc->length_m);
     return status ? status : read_metres(light, "radius", &desc->radius_m);
+}
+
+static ag_status read_rect(const gltf_at *light, ag_light_desc *desc)
+{
+    ag_status status = read_metres(light, "width", &desc->width_m);
+    return status ? status : read_metres(light, "height", &desc->height_m);
 }
 
 static ag_status read_ground(const gltf_at *light, ag_light_desc *desc)
@@ -61,7 +64,9 @@ static ag_status read_terms(const gltf_at *light, ag_light_desc *desc)
 static ag_status read_sizes(const gltf_at *light, ag_light_desc *desc)
 {
     switch (desc->kind) {
-    case AG_LIGHT_SPHERE: return read_metres(light, "radius", &desc->radius_m);
+    case AG_LIGHT_SPHERE:
+    case AG_LIGHT_DISK: return read_metres(light, "radius", &desc->radius_m);
+    case AG_LIGHT_RECT: return read_rect(light, desc);
     case AG_LIGHT_TUBE: return read_tube(light, desc);
     case AG_LIGHT_SUN:
         return gltf_float_in(light, "angularRadius", 0.0f, 0.9999f * half_pi,
@@ -72,42 +77,24 @@ static ag_status read_sizes(const gltf_at *light, ag_light_desc *desc)
     }
 }
 
+const gltf_light_kind gltf_light_argand_kinds[] = {
+    { "sphere", AG_LIGHT_SPHERE },
+    { "disk", AG_LIGHT_DISK },
+    { "rect", AG_LIGHT_RECT },
+    { "tube", AG_LIGHT_TUBE },
+    { "sun", AG_LIGHT_SUN },
+    { "ambient", AG_LIGHT_AMBIENT },
+    { "hemispheric", AG_LIGHT_HEMISPHERIC },
+    { "harmonics", AG_LIGHT_HARMONICS },
+    { 0 },
+};
+
 ag_status gltf_light_read_argand(const gltf_at *light, ag_light_desc *desc)
 {
-    static const gltf_light_kind kinds[] = { { "sphere", AG_LIGHT_SPHERE },
-                                             { "tube", AG_LIGHT_TUBE },
-                                             { "sun", AG_LIGHT_SUN },
-                                             { "ambient", AG_LIGHT_AMBIENT },
-                                             { "hemispheric", AG_LIGHT_HEMISPHERIC },
-                                             { "harmonics", AG_LIGHT_HARMONICS },
-                                             { 0 } };
-    ag_status status = gltf_light_read_kind(light, kinds, &desc->kind);
+    ag_status status = gltf_light_read_kind(light, gltf_light_argand_kinds, &desc->kind);
     if (!status)
         status = read_sizes(light, desc);
-    if (!status && (desc->kind == AG_LIGHT_SPHERE || desc->kind == AG_LIGHT_TUBE))
+    if (!status && light_has_position(desc->kind))
         status = gltf_float_in(light, "range", 0.0f, FLT_MAX, &desc->range_m);
     return status ? status : gltf_bool(light, "hidden", &desc->hidden);
-}
-
-// `ev100` counts as a camera does: the luminance that saturates, 1.2 * 2^EV100, becomes 1
-// (docs/physics.md).
-ag_status gltf_exposure_read(gltf_file *file)
-{
-    gltf_at root = gltf_root(file), extension, exposure;
-    float ev100 = 0.0f, factor = 1.0f;
-    ag_status status = gltf_extension(&root, "ARGAND_lights", &extension);
-    if (!status)
-        status = gltf_object(&extension, "exposure", &exposure);
-    if (status || !exposure.json)
-        return status;
-    bool in_ev = gltf_member(&exposure, "ev100").json,
-         in_factor = gltf_member(&exposure, "factor").json;
-    if (in_ev == in_factor)
-        return gltf_fail(&exposure, AG_ERROR_FORMAT, "must have either ev100 or factor");
-    status = gltf_float_in(&exposure, "ev100", -32.0f, 32.0f, &ev100);
-    if (!status)
-        status = gltf_float_in(&exposure, "factor", 1e-30f, 1e30f, &factor);
-    if (status)
-        return status;
-    return ag_scene_set_exposure(file->scene, in_ev ? ag_exposure_from_ev100(ev100) : factor);
 }

@@ -1,6 +1,5 @@
 // Materials (spec 3.9) with KHR_materials_unlit, _emissive_strength, _ior, _specular and
-// _anisotropy,
-// and uses of textures with KHR_texture_transform.
+// _anisotropy, and uses of textures with KHR_texture_transform.
 #include "scene/gltf.h"
 
 #include <float.h>
@@ -181,6 +180,8 @@ static ag_status read_material(const gltf_at *at, ag_material_desc *desc)
     if (!status)
         status = read_anisotropy(at, desc);
     if (!status)
+        status = gltf_material_read_argand(at, desc);
+    if (!status)
         status = gltf_extension(at, "KHR_materials_unlit", &unlit);
     if (!status)
         desc->unlit = unlit.json != NULL;
@@ -245,12 +246,9 @@ ag_status gltf_materials_read(gltf_file *file)
 // Turn the file's texture indices into the scene's ids.
 static void translate_textures(const gltf_file *file, ag_material_desc *desc)
 {
-    ag_texture_use *const uses[] = {
-        &desc->base_color_texture,     &desc->metallic_roughness_texture, &desc->normal_texture,
-        &desc->occlusion_texture,      &desc->emissive_texture,           &desc->specular_texture,
-        &desc->specular_color_texture,
-    };
-    for (size_t i = 0; i < sizeof uses / sizeof uses[0]; i++)
+    ag_texture_use *uses[MATERIAL_TEXTURES];
+    material_textures(desc, uses);
+    for (int i = 0; i < MATERIAL_TEXTURES; i++)
         if (uses[i]->texture.id)
             uses[i]->texture = file->textures[uses[i]->texture.id - 1].texture;
 }

@@ -55,3 +55,13 @@ double gltf_matrix_determinant(const double m[16])
     gltf_matrix_cofactor(m, c);
     return m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
 }
+
+bool gltf_matrix_is_collapsed(const double m[16])
+{
+    double cofactor[9];
+    gltf_matrix_cofactor(m, cofactor);
+    for (int i = 0; i < 9; i++)
+        if (cofactor[i] > 0.0 || cofactor[i] < 0.0)
+            return false;
+    return true;
+}

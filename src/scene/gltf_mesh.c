@@ -53,6 +53,11 @@ static ag_status check_positions(const gltf_at *attributes, const gltf_geometry 
     return AG_OK;
 }
 
+static bool needs_tangents(const ag_material_desc *drawn)
+{
+    return drawn->normal_texture.texture.id != 0 || drawn->anisotropy > 0.0f;
+}
+
 static ag_status add_to_scene(const gltf_at *primitive, const gltf_geometry *geometry,
                               ag_mesh *mesh)
 {
@@ -75,9 +80,8 @@ static ag_status add_to_scene(const gltf_at *primitive, const gltf_geometry *geo
     };
     if (material != GLTF_NONE) {
         const ag_material_desc *drawn = &file->materials[material].desc;
-        const ag_texture_use *normal = &drawn->normal_texture;
-        desc.skip_tangents = normal->texture.id == 0 && drawn->anisotropy == 0;
-        desc.tangent_uv_set = normal->uv_set;
+        desc.skip_tangents = !needs_tangents(drawn);
+        desc.tangent_uv_set = drawn->normal_texture.uv_set;
     }
     return ag_scene_add_mesh(file->scene, &desc, mesh);
 }
@@ -144,6 +148,14 @@ static bool has_targets(const gltf_at *primitive)
     return targets > 0 && weights == targets;
 }
 
+// Whether they come from the material's uv set, and not from the file.
+static bool computes_tangents(const gltf_at *primitive, const ag_material_desc *drawn)
+{
+    const json_t *attributes = json_object_get(primitive->json, "attributes");
+    bool given = json_object_get(attributes, "TANGENT") && json_object_get(attributes, "NORMAL");
+    return !given && needs_tangents(drawn);
+}
+
 // What makes up the mesh, as text: equal texts, equal meshes.  NULL without memory.
 static char *describe(const gltf_at *primitive)
 {
@@ -158,11 +170,12 @@ static char *describe(const gltf_at *primitive)
     if (has_targets(primitive))
         (void)json_object_set_nocheck(parts_json, "weights", weights);
     uint32_t material = (uint32_t)json_integer_value(json_object_get(primitive->json, "material"));
-    const ag_texture_use *normal = NULL;
+    const ag_material_desc *drawn = NULL;
     if (json_object_get(primitive->json, "material") && material < file->material_count)
-        normal = &file->materials[material].desc.normal_texture;
-    if (normal && normal->texture.id)
-        (void)json_object_set_new_nocheck(parts_json, "tangents", json_integer(normal->uv_set));
+        drawn = &file->materials[material].desc;
+    if (drawn && computes_tangents(primitive, drawn))
+        (void)json_object_set_new_nocheck(parts_json, "tangents",
+                                          json_integer(drawn->normal_texture.uv_set));
     char *text = json_dumps(parts_json, JSON_COMPACT | JSON_SORT_KEYS);
     json_decref(parts_json);
     return text;

@@ -4,30 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The numbers of OpenGL that samplers use.
-enum {
-    NEAREST = 9728,
-    LINEAR = 9729,
-    NEAREST_MIPMAP_NEAREST = 9984,
-    LINEAR_MIPMAP_NEAREST = 9985,
-    NEAREST_MIPMAP_LINEAR = 9986,
-    LINEAR_MIPMAP_LINEAR = 9987,
-    REPEAT = 10497,
-    CLAMP_TO_EDGE = 33071,
-    MIRRORED_REPEAT = 33648,
-};
-
 static ag_status read_wrap(const gltf_at *sampler, const char *key, ag_wrap *wrap)
 {
     gltf_at at = gltf_member(sampler, key);
-    uint64_t value = REPEAT;
+    uint64_t value = GLTF_REPEAT;
     ag_status status = gltf_uint(sampler, key, UINT32_MAX, &value);
     if (status)
         return status;
     switch (value) {
-    case REPEAT: *wrap = AG_WRAP_REPEAT; return AG_OK;
-    case MIRRORED_REPEAT: *wrap = AG_WRAP_MIRROR; return AG_OK;
-    case CLAMP_TO_EDGE: *wrap = AG_WRAP_CLAMP; return AG_OK;
+    case GLTF_REPEAT: *wrap = AG_WRAP_REPEAT; return AG_OK;
+    case GLTF_MIRRORED_REPEAT: *wrap = AG_WRAP_MIRROR; return AG_OK;
+    case GLTF_CLAMP_TO_EDGE: *wrap = AG_WRAP_CLAMP; return AG_OK;
     default:
         return gltf_fail(&at, AG_ERROR_FORMAT, "%llu is not a wrapping mode",
                          (unsigned long long)value);
@@ -37,29 +24,29 @@ static ag_status read_wrap(const gltf_at *sampler, const char *key, ag_wrap *wra
 static ag_status read_mag(const gltf_at *sampler, ag_texture_desc *desc)
 {
     gltf_at at = gltf_member(sampler, "magFilter");
-    uint64_t value = LINEAR;
+    uint64_t value = GLTF_LINEAR;
     ag_status status = gltf_uint(sampler, "magFilter", UINT32_MAX, &value);
-    if (!status && value != LINEAR && value != NEAREST)
+    if (!status && value != GLTF_LINEAR && value != GLTF_NEAREST)
         return gltf_fail(&at, AG_ERROR_FORMAT, "%llu is not a magnification filter",
                          (unsigned long long)value);
-    desc->mag = value == NEAREST ? AG_FILTER_NEAREST : AG_FILTER_LINEAR;
+    desc->mag = value == GLTF_NEAREST ? AG_FILTER_NEAREST : AG_FILTER_LINEAR;
     return status;
 }
 
 static ag_status read_min(const gltf_at *sampler, ag_texture_desc *desc)
 {
     gltf_at at = gltf_member(sampler, "minFilter");
-    uint64_t value = LINEAR_MIPMAP_LINEAR;
+    uint64_t value = GLTF_LINEAR_MIPMAP_LINEAR;
     ag_status status = gltf_uint(sampler, "minFilter", UINT32_MAX, &value);
     if (status)
         return status;
-    bool mips = value >= NEAREST_MIPMAP_NEAREST && value <= LINEAR_MIPMAP_LINEAR;
-    if (!mips && value != NEAREST && value != LINEAR)
+    bool mips = value >= GLTF_NEAREST_MIPMAP_NEAREST && value <= GLTF_LINEAR_MIPMAP_LINEAR;
+    if (!mips && value != GLTF_NEAREST && value != GLTF_LINEAR)
         return gltf_fail(&at, AG_ERROR_FORMAT, "%llu is not a minification filter",
                          (unsigned long long)value);
-    bool near =
-        value == NEAREST || value == NEAREST_MIPMAP_NEAREST || value == NEAREST_MIPMAP_LINEAR;
-    bool mip_near = value == NEAREST_MIPMAP_NEAREST || value == LINEAR_MIPMAP_NEAREST;
+    bool near = value == GLTF_NEAREST || value == GLTF_NEAREST_MIPMAP_NEAREST ||
+                value == GLTF_NEAREST_MIPMAP_LINEAR;
+    bool mip_near = value == GLTF_NEAREST_MIPMAP_NEAREST || value == GLTF_LINEAR_MIPMAP_NEAREST;
     desc->min = near ? AG_FILTER_NEAREST : AG_FILTER_LINEAR;
     desc->mip = mip_near ? AG_FILTER_NEAREST : AG_FILTER_LINEAR;
     desc->no_mips = !mips;

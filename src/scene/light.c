@@ -58,14 +58,23 @@ static vec3 default_direction(ag_light_kind kind)
     }
 }
 
-// `up` square to the direction; any such where it has no part of that kind.
+// `up` square to the direction, kept where it is to a float's precision; any such where it has
+// no part of that kind.
 static vec3 square_up(vec3 direction, vec3 up)
 {
     if (vec3_is_zero(up))
         up = (vec3) { 0.0f, 1.0f, 0.0f };
     up = vec3_unit(up);
-    up = vec3_unit(vec3_sub(up, vec3_scale(direction, vec3_dot(up, direction))));
+    float part = vec3_dot(up, direction);
+    if (fabsf(part) <= 4.0f * FLT_EPSILON)
+        return up;
+    up = vec3_unit(vec3_sub(up, vec3_scale(direction, part)));
     return vec3_is_zero(up) ? vec3_perpendicular(direction) : up;
+}
+
+void light_square_up(const float direction[3], const float up[3], float square[3])
+{
+    vec3_store(square_up(vec3_from(direction), vec3_from(up)), square);
 }
 
 static void fill_defaults(ag_light_desc *d)
@@ -76,7 +85,7 @@ static void fill_defaults(ag_light_desc *d)
     if (vec3_is_zero(direction))
         direction = default_direction(d->kind);
     vec3_store(direction, d->direction);
-    vec3_store(square_up(direction, vec3_from(d->up)), d->up);
+    light_square_up(d->direction, d->up, d->up);
     if (d->cone_outer_rad == 0.0f)
         d->cone_outer_rad = quarter_pi;
     if (d->angular_radius_rad == 0.0f)

@@ -24,9 +24,7 @@ ag_material_desc ag_material_default(void)
     };
 }
 
-// The texture uses of a material, by place, so that all are treated alike.
-enum { TEXTURE_USES = 7 };
-static void list_uses(ag_material_desc *desc, ag_texture_use *uses[TEXTURE_USES])
+void material_textures(ag_material_desc *desc, ag_texture_use *uses[MATERIAL_TEXTURES])
 {
     uses[0] = &desc->base_color_texture;
     uses[1] = &desc->metallic_roughness_texture;
@@ -116,9 +114,9 @@ static void clamp_ranges(ag_material_desc *desc)
 
 static void default_scales(ag_material_desc *desc)
 {
-    ag_texture_use *uses[TEXTURE_USES];
-    list_uses(desc, uses);
-    for (int i = 0; i < TEXTURE_USES; i++)
+    ag_texture_use *uses[MATERIAL_TEXTURES];
+    material_textures(desc, uses);
+    for (int i = 0; i < MATERIAL_TEXTURES; i++)
         if (uses[i]->scale[0] == 0.0f && uses[i]->scale[1] == 0.0f)
             uses[i]->scale[0] = uses[i]->scale[1] = 1.0f;
 }
@@ -140,9 +138,9 @@ static ag_status check(const ag_scene *scene, ag_material_desc *desc)
     if ((unsigned)desc->alpha_mode > AG_ALPHA_BLEND)
         return log_fail(&scene->log, AG_ERROR_ARGUMENT,
                         "A material's alpha mode is none of the listed ones.");
-    ag_texture_use *uses[TEXTURE_USES];
-    list_uses(desc, uses);
-    for (int i = 0; i < TEXTURE_USES; i++)
+    ag_texture_use *uses[MATERIAL_TEXTURES];
+    material_textures(desc, uses);
+    for (int i = 0; i < MATERIAL_TEXTURES; i++)
         if (!use_is_sound(scene, uses[i]))
             return log_fail(&scene->log, AG_ERROR_ARGUMENT,
                             "A material uses texture %u with uv set %u: the texture must be one of "

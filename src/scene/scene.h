@@ -89,6 +89,10 @@ void instance_bounds(const ag_scene *scene, const scene_instance *instance, floa
                      float max[3]);
 bool scene_bounds(const ag_scene *scene, float min[3], float max[3]);
 
+// The texture uses of a material, by place, so that all are treated alike.
+enum { MATERIAL_TEXTURES = 7 };
+void material_textures(ag_material_desc *desc, ag_texture_use *uses[MATERIAL_TEXTURES]);
+
 // A material's choices as the `model` of physics/surface.glsl.
 uint32_t material_model(const ag_material_desc *desc);
 
@@ -109,6 +113,9 @@ void light_axes(const ag_light_desc *desc, float x[3], float y[3]);
 // The ambient lights together: irradiance over pi as the coefficients of ambient_light
 // (physics/ambient.glsl); false where there are none.  `only`: that light alone, unless 0.
 bool scene_ambient(const ag_scene *scene, ag_light only, float sum[9][3]);
+
+// `up`, unit and square to the unit `direction`; of 0 the one that is nearest to +Y.
+void light_square_up(const float direction[3], const float up[3], float square[3]);
 
 // Whether it has a body that is seen at a place.
 bool light_is_seen(const ag_light_desc *desc);

@@ -2,6 +2,7 @@
 #ifndef AG_SCENE_VECTOR_H
 #define AG_SCENE_VECTOR_H
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -48,12 +49,15 @@ static inline vec3 vec3_cross(vec3 a, vec3 b)
 }
 
 // The unit vector along `v`, also of tiny and of huge ones; zero when v is zero or not finite.
+// One that is unit to a float's precision stays as it is.
 static inline vec3 vec3_unit(vec3 v)
 {
     double x = (double)v.x, y = (double)v.y, z = (double)v.z;
     double square = x * x + y * y + z * z;
     if (!(square > 0.0) || !isfinite(square))
         return (vec3) { 0.0f, 0.0f, 0.0f };
+    if (fabs(square - 1.0) <= (double)FLT_EPSILON)
+        return v;
     double s = 1.0 / sqrt(square);
     return (vec3) { (float)(x * s), (float)(y * s), (float)(z * s) };
 }
