@@ -127,6 +127,7 @@ typedef struct ag_render_options {
     float exposure;            // linear factor; 0 -> ag_scene_exposure()
     float white_balance_k;     // of the light that comes out white, 1667 to 25000 (eye.h); 0 -> off
     float white_balance_tint;  // how much greener that light is, -150 to 150
+    float bloom;               // share of the light, in [0, 1], as of ag_image_bloom; 0 -> none
     uint32_t parts;            // ag_part, or-ed; 0 -> all
     ag_light light;            // AG_PART_LIGHTS is this one alone; 0 -> all
     ag_progress progress;      // stage "render"
@@ -168,6 +169,14 @@ AG_CHECK ag_status ag_renderer_render(ag_renderer *renderer, const ag_scene *sce
 // then has to be one over AG_BACKGROUND_TRANSPARENT.  Any number of threads may call it.
 AG_CHECK ag_status ag_image_display(const ag_log *log, const ag_image *linear,
                                     const ag_render_options *look, ag_image **shown);
+
+// Scatter a share of a linear picture's light as the eye does (CIE 146:2002, docs/exposure.md), as
+// if its height were seen under 45 degrees.  A share of .2 is then a young eye's.  No light is
+// lost: beyond the edges lies the mirror image.  RGBA32F, exposed or not; alpha is scattered with
+// the light.  NaN counts as 0, what is beyond 1e30 as that.  On all cores; any number of threads
+// may call it.  AG_ERROR_ARGUMENT on bytes or a share outside of [0, 1].
+AG_CHECK ag_status ag_image_bloom(const ag_log *log, const ag_image *linear, float share,
+                                  ag_image **scattered);
 
 #ifdef __cplusplus
 }

@@ -42,6 +42,9 @@ ag_status picture_check(const ag_scene *scene, ag_render_options *o)
             log, AG_ERROR_ARGUMENT,
             "a white balance of %g K and tint %g is not in 1667 to 25000 and -150 to 150",
             (double)o->white_balance_k, (double)o->white_balance_tint);
+    if (!(o->bloom >= 0 && o->bloom <= 1))
+        return log_fail(log, AG_ERROR_ARGUMENT, "a bloom of %g is no share of 0 to 1",
+                        (double)o->bloom);
     if (!choices_are_known(o))
         return log_fail(log, AG_ERROR_ARGUMENT,
                         "a render option has a value that its enumeration lacks");
