@@ -141,7 +141,7 @@ AG_API bool ag_demo_look(const char *name, ag_render_options *options);
 
 // Milliseconds of wall time that one render spent, and what it drew.
 typedef struct ag_render_stats {
-    double bake_ms, compile_ms, upload_ms, frame_ms, readback_ms;
+    double bake_ms, compile_ms, upload_ms, frame_ms, readback_ms, bloom_ms;
     double show_ms; // in a window: layers and presentation
     uint32_t draws, instances, tiles, samples;
     uint64_t triangles;

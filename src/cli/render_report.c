@@ -28,6 +28,7 @@ static void print_stages(json *j, const render_report *r)
     json_real(j, "upload", r->take_ms + r->stats.upload_ms);
     json_real(j, "frame", r->stats.frame_ms);
     json_real(j, "readback", r->stats.readback_ms);
+    json_real(j, "bloom", r->stats.bloom_ms);
     json_real(j, "encode", r->encode_ms);
     json_real(j, "total", r->total_ms);
     json_close(j, '}');

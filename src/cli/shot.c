@@ -162,6 +162,7 @@ ag_status shot_compose(shot *s, ag_format format, ag_camera_desc *camera,
         .area_lights = (ag_area_lights)r->area_lights,
         .background = r->background.kind,
         .exposure = r->exposure,
+        .bloom = r->bloom,
         .progress = console_progress(s->console),
     };
     set_look(r, options);

@@ -98,6 +98,8 @@ const option shot_options[] = {
       FIELD(exposure), value_factor, NULL, FIELD(exposure_given) },
     { "--ev100", NULL, "EV", "0", "or as a camera counts it: the factor 1 / (1.2 * 2^EV)",
       FIELD(ev100), value_ev100, NULL, FIELD(ev100_given) },
+    { "--bloom", NULL, "SHARE", "0.2", "of the light, scattered as in the eye; 0.2 is an eye's (0)",
+      FIELD(bloom), value_share, NULL, 0 },
     { "--tonemap", NULL, "CURVE", "neutral",
       "none, reinhard, aces, aces-narkowicz, neutral or agx (neutral)", FIELD(tonemap), NULL,
       tonemaps, FIELD(tonemap_given) },

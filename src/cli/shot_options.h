@@ -32,6 +32,7 @@ typedef struct shot_request {
     background_choice background;
     light_list lights;                           // besides those of the scene
     float exposure, ev100;                       // exposure 0 = the scene's
+    float bloom;
     int tonemap, transfer, quality, area_lights; // of the enumerations of these names
     bool correct;                                // a built-in scene not as its text has it
     const char *device;

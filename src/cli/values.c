@@ -125,6 +125,18 @@ const char *value_ev100(const char *value, void *field)
     return NULL;
 }
 
+const char *value_share(const char *value, void *field)
+{
+    double share;
+    const char *complaint = read_alone(value, &share);
+    if (complaint)
+        return complaint;
+    if (!(share >= 0 && share <= 1))
+        return "is not a share of 0 to 1";
+    *(float *)field = (float)share;
+    return NULL;
+}
+
 const char *value_seconds(const char *value, void *field)
 {
     double seconds;

@@ -26,6 +26,7 @@ const char *value_fov_degrees(const char *value, void *field); // (0, 180); radi
 const char *value_factor(const char *value, void *field);      // above 0
 const char *value_ev100(const char *value, void *field);       // [-32, 32]
 const char *value_seconds(const char *value, void *field);     // 0.001 to 1e7
+const char *value_share(const char *value, void *field);       // 0 to 1
 const char *value_noise(const char *value, void *field);       // 1e-5 to 1, without it
 const char *value_at_least_0(const char *value, void *field);
 const char *value_cone_degrees(const char *value, void *field); // [0, 90]; radians

@@ -9,6 +9,7 @@
 #include "render/deferred.h"
 #include "render/frame.h"
 #include "render/pixels.h"
+#include "scene/bloom.h"
 #include "scene/picture.h"
 
 #include <math.h>
@@ -296,13 +297,36 @@ static ag_status make(ag_renderer *r, const ag_scene *scene, const ag_camera_des
     return status;
 }
 
+static ag_status make_bloomed(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,
+                              const ag_render_options *options, ag_image **image,
+                              ag_render_stats *stats)
+{
+    ag_render_options checked = *options;
+    ag_status status = picture_check(scene, &checked);
+    if (status)
+        return status;
+    const ag_render_options light = bloom_light(&checked);
+    ag_image *linear = NULL;
+    status = make(r, scene, camera, &light, NULL, &linear, stats);
+    if (status)
+        return status;
+    double start = clock_ms();
+    status = bloom_finish(&r->device->log, linear, &checked, image);
+    stats->bloom_ms = clock_ms() - start;
+    ag_image_destroy(linear);
+    return status;
+}
+
 ag_status ag_renderer_render(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,
                              const ag_render_options *options, ag_image **image,
                              ag_render_stats *stats)
 {
     ag_render_stats unwanted;
     *image = NULL;
-    return make(r, scene, camera, options, NULL, image, stats ? stats : &unwanted);
+    if (!stats)
+        stats = &unwanted;
+    return options && options->bloom != 0 ? make_bloomed(r, scene, camera, options, image, stats)
+                                          : make(r, scene, camera, options, NULL, image, stats);
 }
 
 ag_status renderer_draw_into(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,

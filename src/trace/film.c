@@ -5,6 +5,7 @@
 #include "base/threads.h"
 #include "image/image.h"
 #include "physics/color.glsl"
+#include "scene/bloom.h"
 
 #include <stdlib.h>
 
@@ -168,16 +169,18 @@ ag_status film_picture(const ag_log *log, const film *f, const ag_render_options
                        ag_image **image)
 {
     const ag_image_desc desc = { f->width, f->height, AG_FORMAT_RGBA32F, NULL };
-    developing d = { .film = f, .options = options };
+    ag_render_options light = options->bloom > 0 ? bloom_light(options) : *options;
+    developing d = { .film = f, .options = &light };
     ag_status status = ag_image_create(log, &desc, &d.image);
     if (status)
         return status;
     parallel_for(f->height, develop_row, &d);
-    if (options->format == AG_FORMAT_RGBA32F) {
+    if (options->bloom == 0 && options->format == AG_FORMAT_RGBA32F) {
         *image = d.image;
         return AG_OK;
     }
-    status = ag_image_display(log, d.image, options, image);
+    status = options->bloom > 0 ? bloom_finish(log, d.image, options, image)
+                                : ag_image_display(log, d.image, options, image);
     ag_image_destroy(d.image);
     return status;
 }
