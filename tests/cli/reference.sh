@@ -80,6 +80,7 @@ while read -r options; do
     cmp -s plain.png other.png && fail "$options has no effect"
 done <<'END'
 --max-bounces 0
+--bloom .3
 --max-bounces 1
 --parts seen
 --unshadowed

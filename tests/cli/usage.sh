@@ -53,6 +53,8 @@ bad "not a factor above 0" --exposure -1
 bad "not a factor above 0" --exposure 0
 bad "not a factor above 0" --env-intensity 0
 bad "not between -32 and 32" --ev100 33
+bad "is not a share of 0 to 1" --bloom 1.5
+bad "is not a share of 0 to 1" --bloom=-0.1
 bad "is not a number" --env-rotation north
 bad "THETA,PHI,RADIUS" --orbit 1,2
 bad "THETA,PHI,RADIUS" --orbit 1,2,3,4

@@ -66,6 +66,39 @@ static void shown_as_the_renderer_shows(void **state)
     ag_scene_destroy(scene);
 }
 
+// A renderer scatters what it would give as linear light, in tiles or not, and shows it then.
+static void bloom_is_before_the_curve(void **state)
+{
+    ag_scene *scene;
+    ag_renderer *renderer;
+    OK(ag_scene_create(NULL, &scene));
+    OK(ag_scene_load_demo(scene, "lights", AG_LOOK_TEXT));
+    OK(ag_renderer_create(*state, &renderer));
+    for (int background = 0; background <= AG_BACKGROUND_COLOR; background++) {
+        ag_render_options look = { .width = SIZE,
+                                   .height = SIZE,
+                                   .tonemap = AG_TONEMAP_AGX,
+                                   .background = (ag_background)background,
+                                   .bloom = 0.4f };
+        ag_render_options linear = look;
+        linear.bloom = 0;
+        linear.format = AG_FORMAT_RGBA32F;
+        if (background == AG_BACKGROUND_COLOR)
+            linear.background = AG_BACKGROUND_TRANSPARENT;
+        ag_image *got = draw(renderer, scene, look), *light = draw(renderer, scene, linear);
+        ag_image *scattered, *wanted;
+        OK(ag_image_bloom(NULL, light, 0.4f, &scattered));
+        OK(ag_image_display(NULL, scattered, &look, &wanted));
+        assert_memory_equal(ag_image_pixels(got), ag_image_pixels(wanted), SIZE * SIZE * 4);
+        ag_image_destroy(got);
+        ag_image_destroy(light);
+        ag_image_destroy(scattered);
+        ag_image_destroy(wanted);
+    }
+    ag_renderer_destroy(renderer);
+    ag_scene_destroy(scene);
+}
+
 static void quiet(void *user, ag_log_level level, const char *text)
 {
     (void)user, (void)level, (void)text;
@@ -87,6 +120,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         KIT_TEST(shown_as_the_renderer_shows),
+        KIT_TEST(bloom_is_before_the_curve),
         KIT_TEST(bytes_are_shown_already),
     };
     return cmocka_run_group_tests_name("display", tests, kit_open, kit_close);
