@@ -1,5 +1,6 @@
-// Fuzz target: the glTF importer, without files beside the one given.
-#include "scene/gltf.h"
+// Fuzz target: the glTF importer, without files beside the one given; and the writer, whose files
+// must be read again, and give the same bytes when they are.
+#include "scene/gltf_write.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,6 +13,13 @@ static void count_errors(void *user, ag_log_level level, const char *sentence)
     (void)sentence;
     if (level == AG_LOG_ERROR)
         ++*(unsigned *)user;
+}
+
+static void hear_nothing(void *user, ag_log_level level, const char *sentence)
+{
+    (void)user;
+    (void)level;
+    (void)sentence;
 }
 
 static void require(bool holds)
@@ -52,22 +60,60 @@ static void check_scene(const ag_scene *scene)
         require(scene->textures[i].image != NULL);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+static ag_status import(const uint8_t *data, size_t size, ag_scene **scene)
 {
     unsigned errors = 0;
     const ag_log log = { .write = count_errors, .user = &errors };
-    ag_scene *scene;
-    require(ag_scene_create(&log, &scene) == AG_OK);
+    require(ag_scene_create(&log, scene) == AG_OK);
     void *bytes = malloc(size ? size : 1);
     require(bytes != NULL);
     if (size)
         memcpy(bytes, data, size);
     double decode_ms;
     ag_status status =
-        gltf_import(scene, "/no/such/folder/fuzz.gltf", bytes, size, NULL, &decode_ms);
+        gltf_import(*scene, "/no/such/folder/fuzz.gltf", bytes, size, NULL, &decode_ms);
     require(errors == (status != AG_OK));
-    if (status == AG_OK)
+    (*scene)->log.user = NULL;
+    (*scene)->log.write = hear_nothing;
+    return status;
+}
+
+static void save(const ag_scene *scene, void **data, size_t *size)
+{
+    file_writer *writer;
+    require(file_writer_open_memory(&scene->log, "fuzz.glb", &writer) == AG_OK);
+    require(gltf_write(scene, "fuzz.glb", writer) == AG_OK);
+    file_writer_take(writer, data, size);
+}
+
+// There and back twice: the first time may drop what cannot be seen or split what was shared.
+static void check_written(const ag_scene *scene)
+{
+    void *data[3];
+    size_t size[3];
+    save(scene, &data[0], &size[0]);
+    for (int i = 1; i < 3; i++) {
+        ag_scene *read;
+        require(import(data[i - 1], size[i - 1], &read) == AG_OK);
+        check_scene(read);
+        require(read->instances_count <= scene->instances_count &&
+                read->lights_count == scene->lights_count &&
+                read->cameras_count == scene->cameras_count);
+        save(read, &data[i], &size[i]);
+        ag_scene_destroy(read);
+    }
+    require(size[1] == size[2] && memcmp(data[1], data[2], size[1]) == 0);
+    for (int i = 0; i < 3; i++)
+        free(data[i]);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    ag_scene *scene;
+    if (import(data, size, &scene) == AG_OK) {
         check_scene(scene);
+        check_written(scene);
+    }
     ag_scene_destroy(scene);
     return 0;
 }

@@ -88,7 +88,9 @@ static ag_status read_argand(const gltf_at *camera, ag_camera_desc *desc)
 {
     gltf_at at;
     bool fit_near = false, fit_far = false;
-    float target[3] = { 0 }, up[3] = { 0 };
+    float target[3], up[3];
+    memcpy(target, desc->target, sizeof target);
+    memcpy(up, desc->up, sizeof up);
     ag_status status = gltf_extension(camera, "ARGAND_cameras", &at);
     if (status || !at.json)
         return status;

@@ -2,14 +2,16 @@
 #include "base/array.h"
 #include "scene/gltf_write.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-// The shortest decimal that is read back as `value`; -0 becomes 0.
+// The shortest decimal that is read back as `value`; -0 becomes 0.  JSON has no infinity.
 static double shortest(float value)
 {
     char text[32];
+    value = fminf(fmaxf(value, -FLT_MAX), FLT_MAX);
     double read = (double)value;
     for (int digits = 6; digits < 9; digits++) {
         snprintf(text, sizeof text, "%.*g", digits, (double)value);

@@ -77,7 +77,7 @@ static void put_strength(gltf_writer *w, json_t *light, const float color[3], fl
     for (int i = 0; i < 3; i++)
         weights[i] = ldexpf(color[i], -exponent);
     gltf_put_floats_unless(w, light, "color", weights, 3, ones);
-    gltf_put_float(w, light, "intensity", fminf(ldexpf(intensity, exponent), 3.4e38f));
+    gltf_put_float(w, light, "intensity", ldexpf(intensity, exponent));
 }
 
 // The mean over all directions of what a tube sends: its radiance times a quarter of its
@@ -166,7 +166,7 @@ static void put_argand(gltf_writer *w, json_t *node, const ag_light_desc *d)
     put_sizes(w, light, d);
     if (light_has_position(d->kind))
         gltf_put_float_unless(w, light, "range", d->range_m, 0.0f);
-    if (d->hidden)
+    if (d->hidden && !light_is_ambient(d->kind))
         gltf_put_true(w, light, "hidden");
     put_light(w, node, "ARGAND_lights", light);
 }

@@ -231,6 +231,15 @@ static void own_kinds(void **state)
     kit_near(l->intensity, 1, 0);
     assert_false(l->hidden);
     is(l->direction, 0, 1, 0);
+    loads(k, at, own("{'type':'rect','width':3,'height':2,'range':9,'hidden':true}"), 0);
+    l = only(k, AG_LIGHT_RECT);
+    kit_near(l->width_m, 3, 0); // whatever the scale
+    kit_near(l->height_m, 2, 0);
+    kit_near(l->range_m, 9, 0);
+    assert_true(l->hidden);
+    is(l->up, -1, 0, 0);
+    loads(k, at, own("{'type':'disk','radius':3}"), 0);
+    kit_near(only(k, AG_LIGHT_DISK)->radius_m, 3, 0);
     loads(k, at, own("{'type':'sun','angularRadius':0.2}"), 0);
     kit_near(only(k, AG_LIGHT_SUN)->angular_radius_rad, 0.2, 1e-7);
     is(k->scene->lights[0].direction, 0, 0, -1);
@@ -259,6 +268,8 @@ static void bad_own_kinds(void **state)
         { "{'type':'point'}", "type: \"point\" is not a kind of light" },
         { "{'type':'sphere'}", "radius: is missing" },
         { "{'type':'tube','radius':1}", "length: is missing" },
+        { "{'type':'rect','width':1}", "height: is missing" },
+        { "{'type':'disk'}", "radius: is missing" },
         { "{'type':'sphere','radius':'1'}", "radius: is not a number" },
         { "{'type':'sphere','radius':1,'hidden':1}", "hidden: is neither true nor false" },
         { "{'type':'harmonics'}", "terms: is missing" },
