@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const command *const list[] = {
-    &command_render, &command_reference, &command_compare, &command_validate,
+    &command_render, &command_reference, &command_compare, &command_validate, &command_convert,
     &command_info,   &command_devices,   &command_demo,    &command_help,
 };
 

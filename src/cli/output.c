@@ -1,4 +1,4 @@
-// The place where a picture goes.
+// The place where a picture or a scene goes.
 #include "output.h"
 
 #include "text.h"
@@ -64,6 +64,17 @@ static bool has_place(console *c, const char *path)
     return false;
 }
 
+static output_verdict check_place(console *c, const char *path)
+{
+    struct stat st;
+    if (!has_place(c, path))
+        return OUTPUT_NO_PLACE;
+    if (stat(path, &st) != 0 || !S_ISDIR(st.st_mode))
+        return OUTPUT_FINE;
+    console_say(c, AG_LOG_ERROR, "%s: is a folder", path);
+    return OUTPUT_NO_PLACE;
+}
+
 output_verdict output_check(console *c, const char *path, ag_format *format)
 {
     if (!known_ending(path, format)) {
@@ -73,13 +84,15 @@ output_verdict output_check(console *c, const char *path, ag_format *format)
                     path);
         return OUTPUT_UNKNOWN_KIND;
     }
-    struct stat st;
-    if (!has_place(c, path))
-        return OUTPUT_NO_PLACE;
-    if (stat(path, &st) != 0 || !S_ISDIR(st.st_mode))
-        return OUTPUT_FINE;
-    console_say(c, AG_LOG_ERROR, "%s: is a folder", path);
-    return OUTPUT_NO_PLACE;
+    return check_place(c, path);
+}
+
+output_verdict output_check_scene(console *c, const char *path)
+{
+    if (text_ends(path, ".glb"))
+        return check_place(c, path);
+    console_say(c, AG_LOG_ERROR, "%s: its name must end in .glb, which is what is written", path);
+    return OUTPUT_UNKNOWN_KIND;
 }
 
 static void hold_interrupts(sigset_t *before)
@@ -132,6 +145,16 @@ ag_status output_save_layers(console *c, const ag_image_layer *layers, size_t co
     sigset_t before;
     hold_interrupts(&before);
     ag_status status = ag_image_save_layers(&log, layers, count, path, &options);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return status;
+}
+
+ag_status output_save_scene(console *c, const ag_scene *scene, const char *path)
+{
+    sigset_t before;
+    console_stage(c, "write", 0);
+    hold_interrupts(&before);
+    ag_status status = ag_scene_save(scene, path);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return status;
 }

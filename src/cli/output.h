@@ -1,4 +1,4 @@
-// The place where a picture goes, looked at before any work is done.
+// The place where a picture or a scene goes, looked at before any work is done.
 #ifndef CLI_OUTPUT_H
 #define CLI_OUTPUT_H
 
@@ -14,11 +14,17 @@ typedef enum output_verdict {
 // make for it.
 output_verdict output_check(console *console, const char *path, ag_format *format);
 
+// The same for a scene, which needs a name in .glb.
+output_verdict output_check_scene(console *console, const char *path);
+
 // Write the picture, and into PNG and OpenEXR files the exposure that it has been made with (a
 // linear factor; 0 = it has none).  An interrupt meanwhile waits until the file is whole.
 ag_status output_save(console *console, const ag_image *image, float exposure, const char *path);
 ag_status output_save_layers(console *console, const ag_image_layer *layers, size_t count,
                              float exposure, const char *path);
+
+// Write the scene, likewise.
+ag_status output_save_scene(console *console, const ag_scene *scene, const char *path);
 
 // Whether a page can go into `folder`, which may have to be made; says what is wrong.
 bool output_check_folder(console *console, const char *folder);

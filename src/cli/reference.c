@@ -152,7 +152,7 @@ const command command_reference = {
         "samples a pixel, or at the first of --spp, --time and --noise that are given.\n"
         "Ctrl-C ends it too, and the picture is written with what has been gathered; a second\n"
         "one ends at once.  The same --seed gives the same bytes on any number of cores.\n",
-    .options = { reference_options, shot_options },
+    .options = { reference_options, shot_scene_options, shot_options },
     .more = lights_lesson,
     .examples = "  argand reference helmet.glb -o helmet.png\n"
                 "      64 samples a pixel.\n"

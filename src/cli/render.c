@@ -173,7 +173,7 @@ static bool parse(shot_request *request, int argc, char **argv, bool *help)
     *request = shot_request_default();
     option_set set = {
         .command = "render",
-        .options = { options, shot_options, shot_device_options },
+        .options = { options, shot_scene_options, shot_options, shot_device_options },
         .fields = request,
         .operands = &request->input,
         .operand_capacity = 1,
@@ -217,11 +217,11 @@ const command command_render = {
         "FILE is a glTF 2.0 file, .gltf with its files or .glb.  Without --camera the scene is\n"
         "framed automatically, from three quarters and slightly above; a built-in scene is\n"
         "seen from its own camera.  Without --env a procedural studio with soft boxes lights\n"
-        "it, or what a built-in scene brings along; its own lights and those of --light always\n"
+        "it, or what the scene brings along; its own lights and those of --light always\n"
         "shine.  The picture appears whole or not at all.\n"
         "In .exr and .hdr it is linear light times the exposure, without a tone curve.\n"
         "Where there is no Vulkan device it is path traced, as by `argand reference`.\n",
-    .options = { options, shot_options, shot_device_options },
+    .options = { options, shot_scene_options, shot_options, shot_device_options },
     .more = lights_lesson,
     .examples = "  argand render helmet.glb -o helmet.png\n"
                 "      The whole model in the studio, 1024x1024 pixels.\n"

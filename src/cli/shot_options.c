@@ -71,6 +71,23 @@ static const char *read_environment(const char *value, void *field)
 
 #define FIELD(member) offsetof(shot_request, member)
 
+const option shot_scene_options[] = {
+    { "--env", NULL, "FILE|studio|sky|none", "studio",
+      "what lights the scene: .hdr or .exr, or a procedural one (studio)", FIELD(environment),
+      read_environment, NULL, FIELD(environment_given) },
+    { "--env-rotation", NULL, "DEGREES", "90", "turn it about +Y, counter-clockwise from above",
+      FIELD(environment_rotation_rad), value_degrees, NULL, FIELD(environment_given) },
+    { "--env-intensity", NULL, "FACTOR", "1.5", "make it brighter or darker (1)",
+      FIELD(environment_intensity), value_factor, NULL, FIELD(environment_given) },
+    { "--light", NULL, "'KIND KEY=VALUE ...'", "sphere at=0,2,1 radius=0.1 intensity=100",
+      "add a light, once for each; see below", FIELD(lights), lights_read, NULL, 0 },
+    { "--correct", NULL, NULL, "", "a built-in scene in Argand's look, not that of its text",
+      FIELD(correct), NULL, NULL, 0 },
+    { "--quiet", "-q", NULL, "", "print errors only", FIELD(quiet), NULL, NULL, 0 },
+    { "--verbose", "-v", NULL, "", "say what is chosen and done", FIELD(verbose), NULL, NULL, 0 },
+    { 0 },
+};
+
 const option shot_options[] = {
     { "--size", NULL, "WxH", "1024x1024", "width and height in pixels (1024x1024)", FIELD(size),
       value_size, NULL, 0 },
@@ -83,15 +100,6 @@ const option shot_options[] = {
       FIELD(target), value_target, NULL, FIELD(target_given) },
     { "--fov", NULL, "DEGREES", "45", "vertical field of view (45)", FIELD(fov_rad),
       value_fov_degrees, NULL, 0 },
-    { "--env", NULL, "FILE|studio|sky|none", "studio",
-      "what lights the scene: .hdr or .exr, or a procedural one (studio)", FIELD(environment),
-      read_environment, NULL, FIELD(environment_given) },
-    { "--env-rotation", NULL, "DEGREES", "90", "turn it about +Y, counter-clockwise from above",
-      FIELD(environment_rotation_rad), value_degrees, NULL, FIELD(environment_given) },
-    { "--env-intensity", NULL, "FACTOR", "1.5", "make it brighter or darker (1)",
-      FIELD(environment_intensity), value_factor, NULL, FIELD(environment_given) },
-    { "--light", NULL, "'KIND KEY=VALUE ...'", "sphere at=0,2,1 radius=0.1 intensity=100",
-      "add a light, once for each; see below", FIELD(lights), lights_read, NULL, 0 },
     { "--background", NULL, "env|transparent|#rrggbb", "#ffffff", "what is behind it all (env)",
       FIELD(background), read_background, NULL, 0 },
     { "--exposure", NULL, "FACTOR", "1", "a linear factor on the light (the scene's own, else 1)",
@@ -105,12 +113,8 @@ const option shot_options[] = {
       tonemaps, FIELD(tonemap_given) },
     { "--transfer", NULL, "srgb|gamma2.2", "srgb", "how light is coded in 8 bits (srgb)",
       FIELD(transfer), NULL, transfers, FIELD(transfer_given) },
-    { "--correct", NULL, NULL, "", "a built-in scene in Argand's look, not that of its text",
-      FIELD(correct), NULL, NULL, 0 },
     { "--json", NULL, NULL, "", "print one JSON object: sizes, milliseconds, memory and more",
       FIELD(json), NULL, NULL, 0 },
-    { "--quiet", "-q", NULL, "", "print errors only", FIELD(quiet), NULL, NULL, 0 },
-    { "--verbose", "-v", NULL, "", "say what is chosen and done", FIELD(verbose), NULL, NULL, 0 },
     { 0 },
 };
 

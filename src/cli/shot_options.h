@@ -41,9 +41,9 @@ typedef struct shot_request {
     bool environment_given; // or its rotation, or its intensity
 } shot_request;
 
-// The options that every command with pictures takes, and those of pictures on a device:
-// for a struct that begins with a shot_request.
-extern const option shot_options[], shot_device_options[];
+// The options that say what is in the scene, those that every command with pictures takes, and
+// those of pictures on a device: for a struct that begins with a shot_request.
+extern const option shot_scene_options[], shot_options[], shot_device_options[];
 
 // What holds where nothing is given.
 shot_request shot_request_default(void);

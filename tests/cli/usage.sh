@@ -10,7 +10,7 @@ set -eu
 [ $? -ne 0 ] || true
 grep -q '^usage: argand render' err || fail "argand alone prints its usage"
 "$argand" --version | grep -qx 'argand [0-9]*\.[0-9]*\.[0-9]*' || fail "--version"
-for command in render reference compare info devices demo help; do
+for command in render reference compare convert info devices demo help; do
     "$argand" help | grep -q "^  $command " || fail "help lists $command"
     "$argand" help $command | grep -q "^usage: argand $command" || fail "help $command"
     "$argand" $command --help >out || fail "$command --help"
@@ -150,6 +150,30 @@ sed 's/"extensionsUsed"/"extensionsRequired": ["XYZ_materials_plaid"], "extensio
     "$triangle" >required.gltf
 expect 1 "XYZ_materials_plaid" info required.gltf
 rm ./*.gltf ./*.glb
+nothing_left
+
+# A scene as a file.
+expect 2 "convert: which file? Try: argand convert model.gltf -o scene.glb" convert -o x.glb
+expect 2 "convert: where should the scene go? Add: -o scene.glb" convert "$triangle"
+expect 2 "x.gltf: its name must end in .glb" convert "$triangle" -o x.gltf
+expect 2 "there is no option '--size'" convert "$triangle" -o x.glb --size 1x1
+expect 2 "give one of them" convert "$triangle" -o x.glb --quiet --verbose
+expect 2 "did you mean demo:spheres" convert demo:sphere -o x.glb
+expect 1 "the folder 'no' does not exist" convert "$triangle" -o no/x.glb
+expect 1 "none.glb" convert none.glb -o x.glb
+expect 1 "none.hdr" convert demo:spheres -o x.glb --env ./none.hdr
+nothing_left
+"$argand" convert demo:spheres -o x.glb >out 2>err || fail "convert"
+[ ! -s err ] || fail "convert says something"
+grep -Eqx 'x.glb: [0-9,]+ triangles, 0 textures, [0-9]+ lights' out || fail "the closing line"
+"$argand" convert x.glb -o y.glb --quiet --env sky --light 'sphere radius=1 at=1,2,3' >out 2>err ||
+    fail "convert what was converted"
+[ ! -s out ] && [ ! -s err ] || fail "--quiet says something"
+"$argand" convert y.glb -o y.glb --light sun >out || fail "convert onto itself"
+"$argand" info y.glb --json >out 2>err || fail "info of what was converted"
+"$json" out lights.0.kind=sphere lights.0.position.1=2 lights.1.kind=sun ||
+    fail "convert lost the lights"
+rm x.glb y.glb
 nothing_left
 
 # What is in a file.
