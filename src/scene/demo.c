@@ -34,6 +34,8 @@ static const struct demo {
     { "ambient-sh-blinn", "the same text: Blinn, four lights and spherical harmonics",
       demo_ambient_sh_blinn },
     { "metals", "every metal by name, in the order of ag_metal", demo_metals },
+    { "terrace", "a grey card, a table and a person, without light: for light in real units",
+      demo_terrace },
 };
 enum { DEMOS = sizeof demos / sizeof *demos };
 

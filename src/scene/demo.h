@@ -16,6 +16,7 @@ void demo_sphere_lights(stage *s);
 void demo_sun(stage *s);
 void demo_sun_large(stage *s);
 void demo_metals(stage *s);
+void demo_terrace(stage *s);
 void demo_ambient_oren_nayar(stage *s);
 void demo_ambient_hemispheric(stage *s);
 void demo_ambient_sh_blinn(stage *s);
