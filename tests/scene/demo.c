@@ -60,7 +60,7 @@ static void test_every_demo_is_sound(void **state)
             ag_scene_destroy(scene);
         }
     }
-    assert_int_equal(count, 15);
+    assert_int_equal(count, 16);
     assert_false(ag_scene_demo(count, &name, &about));
 }
 
