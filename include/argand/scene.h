@@ -406,6 +406,49 @@ AG_API ag_orbit ag_orbit_auto(void);
 // A camera on `orbit` (NULL -> the automatic view) for pictures of `aspect` = width / height.
 AG_API ag_camera_desc ag_scene_frame(const ag_scene *scene, const ag_orbit *orbit, float aspect);
 
+// ---- Places of a picture -----------------------------------------------------
+//
+// In px from the upper left corner: the first pixel's centre is (.5, .5).
+
+typedef struct ag_ray {
+    float origin[3];    // m: the eye, or of an orthographic camera where it stands in its plane
+    float direction[3]; // unit
+} ag_ray;
+
+// The line of sight through a place of a camera's picture of `width` by `height` px.
+AG_API ag_ray ag_camera_ray(const ag_camera_desc *camera, uint32_t width, uint32_t height, float x,
+                            float y);
+
+// Where in the picture a point is; false where it lies behind the eye.
+AG_API bool ag_camera_project(const ag_camera_desc *camera, uint32_t width, uint32_t height,
+                              const float point[3], float place[2]);
+
+typedef enum ag_pick_kind {
+    AG_PICK_NOTHING = 0, // the background
+    AG_PICK_SURFACE,
+    AG_PICK_LIGHT,
+} ag_pick_kind;
+
+typedef struct ag_pick {
+    ag_pick_kind kind;
+    ag_instance instance; // of a surface
+    ag_material material; // of a surface; 0: the default one
+    ag_light light;
+    float position[3]; // m, world space; zero of suns
+    float normal[3];   // of a surface: its triangle's, unit, towards the eye
+    float distance_m;  // from the ray's origin; INFINITY of suns
+} ag_pick;
+
+// What is seen at (x, y): the nearest surface or body of a light.  What a picture leaves out is
+// not found: culled back faces, alpha below the cutoff, blended surfaces of an alpha below a half,
+// hidden bodies.  But lights that stand somewhere are found first, before all else, within
+// `reach_px` of their position, whatever is before it: for those that are drawn as marks; 0 ->
+// none.  `camera` NULL -> ag_scene_frame's automatic view.  Some milliseconds for a million
+// triangles.  AG_ERROR_ARGUMENT on an empty picture or a number that is not finite.
+AG_CHECK ag_status ag_scene_pick(const ag_scene *scene, const ag_camera_desc *camera,
+                                 uint32_t width, uint32_t height, float x, float y, float reach_px,
+                                 ag_pick *pick);
+
 #ifdef __cplusplus
 }
 #endif

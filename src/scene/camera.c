@@ -1,6 +1,7 @@
 // Cameras: those that are added, and the one that frames a scene by itself.
 #include "base/array.h"
 #include "base/log.h"
+#include "scene/frame.h"
 #include "scene/scene.h"
 #include "scene/vector.h"
 
@@ -59,31 +60,6 @@ bool ag_scene_camera(const ag_scene *scene, size_t index, ag_camera_desc *desc)
 }
 
 // ---- What a view sees of the scene -----------------------------------------
-
-// A frame: `origin` and three unit axes, the last one from the target to the eye.
-typedef struct frame {
-    double origin[3];
-    double axis[3][3];
-} frame;
-
-// The way from an instance's mesh to a frame.
-typedef struct affine {
-    double m[3][4];
-} affine;
-
-static affine frame_from_mesh(const frame *f, const float world[16])
-{
-    affine a;
-    for (int row = 0; row < 3; row++) {
-        for (int column = 0; column < 4; column++) {
-            a.m[row][column] = 0.0;
-            for (int i = 0; i < 3; i++)
-                a.m[row][column] += f->axis[row][i] * ((double)world[4 * column + i] -
-                                                       (column == 3 ? f->origin[i] : 0.0));
-        }
-    }
-    return a;
-}
 
 // What a perspective view must keep in front of it, its half extents at distance 1 being
 // tx and ty.

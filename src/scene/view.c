@@ -78,3 +78,42 @@ void view_include(view *v, const ag_camera_desc *camera, const float center[3], 
     if (!(camera->near_m > 0) && nearest < v->near_m)
         v->near_m = v->orthographic ? nearest : fmaxf(nearest, fminf(v->near_m, v->far_m * 1e-5f));
 }
+
+void view_ray(const view *v, float x, float y, float origin[3], float direction[3])
+{
+    float clip_x = 2 * x / (float)v->width - 1, clip_y = 1 - 2 * y / (float)v->height;
+    vec3 off = vec3_add(vec3_scale(vec3_from(v->right), clip_x * v->half_x),
+                        vec3_scale(vec3_from(v->up), clip_y * v->half_y));
+    vec3 eye = vec3_from(v->eye), forward = vec3_from(v->forward);
+    vec3_store(v->orthographic ? vec3_add(eye, off) : eye, origin);
+    vec3_store(v->orthographic ? forward : vec3_unit(vec3_add(forward, off)), direction);
+}
+
+bool view_project(const view *v, const float point[3], float place[2])
+{
+    vec3 to = vec3_sub(vec3_from(point), vec3_from(v->eye));
+    float depth = view_depth(v, point), scale = v->orthographic ? 1 : depth;
+    if (!(depth > 0))
+        return false;
+    float x = vec3_dot(to, vec3_from(v->right)) / (scale * v->half_x);
+    float y = vec3_dot(to, vec3_from(v->up)) / (scale * v->half_y);
+    place[0] = (1 + x) / 2 * (float)v->width;
+    place[1] = (1 - y) / 2 * (float)v->height;
+    return isfinite(place[0]) && isfinite(place[1]);
+}
+
+ag_ray ag_camera_ray(const ag_camera_desc *camera, uint32_t width, uint32_t height, float x,
+                     float y)
+{
+    view v = view_make(camera, width, height, NULL, NULL);
+    ag_ray ray;
+    view_ray(&v, x, y, ray.origin, ray.direction);
+    return ray;
+}
+
+bool ag_camera_project(const ag_camera_desc *camera, uint32_t width, uint32_t height,
+                       const float point[3], float place[2])
+{
+    view v = view_make(camera, width, height, NULL, NULL);
+    return view_project(&v, point, place);
+}

@@ -20,6 +20,12 @@ view view_make(const ag_camera_desc *camera, uint32_t width, uint32_t height, co
 // Move the planes that the camera does not give, to have a ball between them.
 void view_include(view *v, const ag_camera_desc *camera, const float center[3], float radius);
 
+// Where the line of sight through (x, y) px of the picture begins, m, and its unit direction.
+void view_ray(const view *v, float x, float y, float origin[3], float direction[3]);
+
+// Where a point is seen: px; false where it lies behind the eye.
+bool view_project(const view *v, const float point[3], float place[2]);
+
 // m along the line of sight, negative behind the eye.
 float view_depth(const view *v, const float point[3]);
 
