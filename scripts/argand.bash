@@ -6,7 +6,7 @@ _argand_options() {
 _argand() {
     local word=$2 before=$3 words= files=
     case $before in
-    argand | */argand) words='render reference compare validate info devices demo help --version' ;;
+    argand | */argand) words='render reference compare validate convert info devices demo help --version' ;;
     --tonemap) words='none reinhard aces aces-narkowicz neutral agx' ;;
     --transfer) words='srgb gamma2.2' ;;
     --area-lights) words='exact ltc representative-point' ;;
@@ -17,7 +17,7 @@ _argand() {
     --background) words='env transparent' ;;
     --env) words='studio sky none' files=1 ;;
     --device) words='auto cpu' ;;
-    help) words='render reference compare validate info devices demo' ;;
+    help) words='render reference compare validate convert info devices demo' ;;
     *)
         if [[ $word == -* ]]; then
             words=$(_argand_options "${COMP_WORDS[1]}")

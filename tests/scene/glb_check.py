@@ -181,6 +181,7 @@ def main():
     primitives = [p for mesh in root.get("meshes", []) for p in mesh["primitives"]]
     for primitive in {p["indices"]: p for p in primitives}.values():
         check_primitive(root, binary, primitive)
+    need(len(set(map(json.dumps, root.get("meshes", [])))) == len(root.get("meshes", [])), "twins")
     for primitive in primitives:
         need(primitive.get("material", 0) < len(root.get("materials", [0])), "a material")
     for texture in root.get("textures", []):

@@ -319,6 +319,17 @@ static void materials(void **state)
     show(scene, mesh, NULL, NULL);
     round_trip(k, scene);
     assert_int_equal(k->scene->meshes_count, 1); // shared by all of them
+    // One whose tangents are any, under a material that would compute others.
+    const float triangle[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+    const float turned[6] = { 0, 0, 0, 1, 1, 0 };
+    const ag_mesh_desc any = {
+        .positions = triangle, .uvs = { turned }, .vertex_count = 3, .skip_tangents = true
+    };
+    ag_material_desc brushed = ag_material_default();
+    brushed.anisotropy = 0.5f;
+    OK(ag_scene_add_mesh(scene, &any, &mesh));
+    show(scene, mesh, &brushed, NULL);
+    round_trip(k, scene);
     check_structure(k, "first.glb");
     ag_scene_destroy(scene);
 }
