@@ -6,7 +6,9 @@ _argand_options() {
 _argand() {
     local word=$2 before=$3 words= files=
     case $before in
-    argand | */argand) words='render reference compare validate convert info devices demo help --version' ;;
+    argand | */argand)
+        words='render reference compare validate convert info devices demo help --version'
+        ;;
     --tonemap) words='none reinhard aces aces-narkowicz neutral agx' ;;
     --transfer) words='srgb gamma2.2' ;;
     --area-lights) words='exact ltc representative-point' ;;
