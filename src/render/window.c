@@ -322,6 +322,27 @@ static ag_status record(ag_window *w, const ag_show_options *show)
 
 // ---- Showing -----------------------------------------------------------------
 
+// Bloom is made on the host; the picture comes back from there.
+static ag_status bring_bloomed(ag_window *w, const ag_scene *scene, const ag_camera_desc *camera,
+                               const ag_render_options *options, ag_render_stats *stats)
+{
+    gpu_device *device = w->renderer->device;
+    ag_image *image;
+    ag_status status = ag_renderer_render(w->renderer, scene, camera, options, &image, stats);
+    if (status)
+        return status;
+    status = gpu_commands_begin(device, &w->commands); // waits for the last time
+    if (!status)
+        status = gpu_buffer_ensure(device, bytes_of(image), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                   GPU_MEMORY_UPLOAD, &w->staging);
+    if (!status) {
+        copy_to_slot(w, &w->picture, image, 0);
+        status = gpu_commands_submit(device, &w->commands);
+    }
+    ag_image_destroy(image);
+    return status;
+}
+
 static ag_status make_picture(ag_window *w, const ag_scene *scene, const ag_camera_desc *camera,
                               const ag_render_options *options, ag_render_stats *stats)
 {
@@ -341,7 +362,9 @@ static ag_status make_picture(ag_window *w, const ag_scene *scene, const ag_came
     if (!status)
         status = gpu_commands_submit(device, &w->commands);
     w->has_picture = false;
-    if (!status)
+    if (!status && checked.bloom > 0)
+        status = bring_bloomed(w, scene, camera, &checked, stats);
+    else if (!status)
         status = renderer_draw_into(w->renderer, scene, camera, &checked, &w->picture.image, stats);
     w->has_picture = !status;
     return status;
