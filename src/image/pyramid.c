@@ -112,17 +112,18 @@ typedef struct resampling {
     float keep; // of what `to` has been, to which the rest is added
 } resampling;
 
-// The columns from `first` on, of all that a block needs, in one row.
-static void mix_rows(const resampling *r, const taps *rows, uint32_t first, uint32_t count,
-                     pyramid_texel *out)
+// The columns that a block needs, in one row.
+static inline void mix_rows(const pyramid_level *from, const taps *rows, uint32_t reach,
+                            struct span span, pyramid_texel *out)
 {
-    for (uint32_t x = 0; x < count; x++)
-        out[x] = (pyramid_texel) { 0 };
-    for (uint32_t i = 0; i < r->down.reach; i++) {
-        const pyramid_texel *row = r->from->texels + (size_t)rows->at[i] * r->from->width + first;
-        float weight = rows->weight[i];
-        for (uint32_t x = 0; x < count; x++)
-            out[x] += weight * row[x];
+    const pyramid_texel *row[REACH_DOWN];
+    for (uint32_t i = 0; i < reach; i++)
+        row[i] = from->texels + (size_t)rows->at[i] * from->width + span.first;
+    for (uint32_t x = 0; x < span.count; x++) {
+        pyramid_texel sum = rows->weight[0] * row[0][x];
+        for (uint32_t i = 1; i < reach; i++)
+            sum += rows->weight[i] * row[i][x];
+        out[x] = sum;
     }
 }
 
@@ -143,11 +144,15 @@ static void resample_block(const resampling *r, uint32_t y, uint32_t x)
 {
     pyramid_texel mixed[BLOCK_SOURCE];
     struct span span = r->across.blocks[x / BLOCK];
-    mix_rows(r, &r->down.texels[y], span.first, span.count, mixed);
-    const taps *columns = r->across.texels + x;
+    const taps *columns = r->across.texels + x, *rows = &r->down.texels[y];
     uint32_t count = block_size(r->to->width, x);
     pyramid_texel *out = r->to->texels + (size_t)y * r->to->width + x;
-    if (r->across.reach == REACH_DOWN) // constants, so that loops unroll
+    // Constants, so that loops unroll.
+    if (r->down.reach == REACH_DOWN)
+        mix_rows(r->from, rows, REACH_DOWN, span, mixed);
+    else
+        mix_rows(r->from, rows, REACH_UP, span, mixed);
+    if (r->across.reach == REACH_DOWN)
         mix_columns(columns, count, REACH_DOWN, mixed, span.first, r->keep, out);
     else
         mix_columns(columns, count, REACH_UP, mixed, span.first, r->keep, out);

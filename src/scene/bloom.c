@@ -53,48 +53,53 @@ typedef struct bloom_job {
     vec3 under; // display-linear
 } bloom_job;
 
+typedef int32_t mask __attribute__((vector_size(16)));
+
 typedef struct band {
-    const float *in;
-    float *out;
-    size_t end; // values
+    const pyramid_texel *in;
+    pyramid_texel *out;
+    size_t end;
 } band;
 
 static band band_of(const bloom_job *job, size_t index)
 {
-    size_t row = (size_t)job->to->width * 4, first = index * ROWS * row;
-    size_t left = row * job->to->height - first;
-    const float *in = job->from->pixels;
-    float *out = job->to->pixels;
-    return (band) { in + first, out + first, left < ROWS * row ? left : ROWS * row };
+    size_t first = index * ROWS * job->to->width, all = (size_t)job->to->width * job->to->height;
+    size_t end = first + (size_t)ROWS * job->to->width;
+    const pyramid_texel *in = job->from->pixels;
+    pyramid_texel *out = job->to->pixels;
+    return (band) { in + first, out + first, (end < all ? end : all) - first };
 }
 
-static float sound(float c)
+static pyramid_texel choose(mask which, pyramid_texel a, pyramid_texel b)
 {
-    const float most = 1e30f;  // of which sums are still finite
-    c = c > -most ? c : -most; // NaN as well
-    return c < most ? c : most;
+    return (pyramid_texel)(((mask)a & which) | ((mask)b & ~which));
 }
 
-// Multiplied by alpha; NaN becomes black.
+// Multiplied by alpha; NaN becomes black, and sums of all are finite.
 static void multiply_rows(void *context, size_t index)
 {
+    const pyramid_texel none = { 0 }, most = none + 1e30f;
     band b = band_of(context, index);
-    for (size_t i = 0; i < b.end; i += 4) {
-        float alpha = clamp(b.in[i + 3], 0.0f, 1.0f);
-        for (size_t c = 0; c < 3; c++)
-            b.out[i + c] = sound(b.in[i + c] == b.in[i + c] ? b.in[i + c] : 0) * alpha;
-        b.out[i + 3] = alpha;
+    for (size_t i = 0; i < b.end; i++) {
+        pyramid_texel c = b.in[i];
+        c = choose(c == c, c, none);
+        c = choose(c < most, c, most);
+        c = choose(c > -most, c, -most);
+        float alpha = clamp(c[3], 0.0f, 1.0f);
+        c *= alpha;
+        c[3] = alpha;
+        b.out[i] = c;
     }
 }
 
 static void straighten_rows(void *context, size_t index)
 {
     band b = band_of(context, index);
-    for (size_t i = 0; i < b.end; i += 4) {
-        float alpha = b.in[i + 3], scale = alpha > 0 ? 1 / alpha : 0;
-        for (size_t c = 0; c < 3; c++)
-            b.out[i + c] = b.in[i + c] * scale;
-        b.out[i + 3] = alpha < 0.99999f ? alpha : 1; // but for rounding
+    for (size_t i = 0; i < b.end; i++) {
+        float alpha = b.in[i][3];
+        if (alpha < 0.99999f)
+            b.out[i] = b.in[i] * (alpha > 0 ? 1 / alpha : 0);
+        b.out[i][3] = alpha < 0.99999f ? alpha : 1; // but for rounding
     }
 }
 
@@ -102,10 +107,11 @@ static void cover_rows(void *context, size_t index)
 {
     const bloom_job *job = context;
     band b = band_of(context, index);
-    for (size_t i = 0; i < b.end; i += 4) {
-        for (size_t c = 0; c < 3; c++)
-            b.out[i + c] = job->under[c] + (b.in[i + c] - job->under[c]) * b.in[i + 3];
-        b.out[i + 3] = 1;
+    for (size_t i = 0; i < b.end; i++) {
+        float alpha = b.in[i][3];
+        for (int c = 0; c < 3; c++)
+            b.out[i][c] = job->under[c] + (b.in[i][c] - job->under[c]) * alpha;
+        b.out[i][3] = 1;
     }
 }
 
