@@ -251,8 +251,11 @@ static ag_status record_and_submit(ag_renderer *r, const picture *p, view_rect t
     return status ? status : gpu_commands_wait(r->device, &r->commands);
 }
 
+// Among numbers of another picture lavapipe would write this one's into the shaders' loops, and
+// from then on compile them again in every frame: nothing but zeros keeps it from that.
 ag_status frame_warm_up(ag_renderer *r, const picture *p)
 {
+    memset(r->frame.memory.mapped, 0, sizeof(gpu_frame));
     return p->deferred ? deferred_warm_up(r, p)
                        : record_and_submit(r, p, (view_rect) { 0 }, 0, true);
 }
