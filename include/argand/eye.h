@@ -9,6 +9,10 @@
 #define ARGAND_EYE_H
 
 #include <argand/base.h>
+#include <argand/image.h>
+#include <argand/reference.h>
+#include <argand/renderer.h>
+#include <argand/scene.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -23,6 +27,48 @@ AG_API float ag_ev100_from_exposure(float exposure); // above 0
 // A camera's settings, each above 0: log2(N^2 / t * 100 / S) with the f-number N, the shutter's
 // time t in seconds and the sensitivity S as ISO counts it.
 AG_API float ag_ev100_from_camera(float aperture, float shutter_s, float iso);
+
+// ---- Metering --------------------------------------------------------------
+
+typedef enum ag_meter {
+    AG_METER_CENTER = 0, // three quarters of the weight are within a quarter of the shorter side
+    AG_METER_AVERAGE,    // all counts alike
+    AG_METER_SPOT,       // a disk alone
+} ag_meter;
+
+// How a picture is metered: by the mean luminance of what is left after the darkest and the
+// brightest are cut.  Black counts; what is transparent, or a background of a given colour, does
+// not, being no light of the scene.
+typedef struct ag_metering {
+    ag_meter meter;
+    float spot_x, spot_y; // of SPOT: to the right of the picture's middle and down, in widths and
+                          // heights, -0.5 to 0.5
+    float spot_radius;    // in shorter sides of the picture, at most 1; 0 -> 0.05
+    float low, high;      // from the low to the high share of the pixels in the order of their
+                          // luminance, 0 to 1, is metered; both 0 -> 0.1 and 0.9
+    float min_ev100, max_ev100; // limits of what the meter says; both 0 -> those of what it can
+                                // see, -10 to 21.75
+    float compensation_ev;      // stops brighter than that; after the limits
+} ag_metering;
+
+// Meter a linear picture, RGBA32F, that was made with the linear factor `exposure` and no white
+// balance.  NULL metering -> defaults.  AG_ERROR_ARGUMENT on what is out of range.
+AG_CHECK ag_status ag_image_meter(const ag_log *log, const ag_image *linear, float exposure,
+                                  const ag_metering *metering, float *ev100);
+
+// Meter what ag_renderer_render would make a picture of: drawn small, of 160 px, whatever size
+// is asked for, and summed up on the device.  It takes the same thing for the same things each
+// time, and keeps what pictures of full size need; of `options` neither exposure nor white balance
+// nor look matter.  Errors as ag_renderer_render has them.
+AG_CHECK ag_status ag_renderer_meter(ag_renderer *renderer, const ag_scene *scene,
+                                     const ag_camera_desc *camera, const ag_render_options *options,
+                                     const ag_metering *metering, float *ev100);
+
+// The same of what ag_reference_create would make a picture of, with 16 samples a pixel.
+AG_CHECK ag_status ag_reference_meter(const ag_scene *scene, const ag_camera_desc *camera,
+                                      const ag_render_options *picture,
+                                      const ag_reference_options *options,
+                                      const ag_metering *metering, float *ev100);
 
 // ---- White balance -----------------------------------------------------------
 //

@@ -186,6 +186,14 @@ STRUCT_BEGIN(gpu_resolve)
     float weight;      // of this picture in the sum
 STRUCT_END(gpu_resolve)
 
+// The picture that is metered; pushed.
+STRUCT_BEGIN(gpu_meter)
+    uint width, height; // px
+    uint meter;         // what follows: of meter_pattern
+    float x, y, radius, shorter;
+    float scale; // from the picture to nit
+STRUCT_END(gpu_meter)
+
 // An image in a window; pushed.
 STRUCT_BEGIN(gpu_layer)
     float4 place;  // left, top, right, bottom in clip space

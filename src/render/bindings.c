@@ -24,6 +24,17 @@ static ag_status create_shading_layouts(gpu_device *device, bindings *b)
     return status;
 }
 
+static ag_status create_metering_layouts(gpu_device *device, bindings *b)
+{
+    const VkShaderStageFlags compute = VK_SHADER_STAGE_COMPUTE_BIT;
+    const VkDescriptorSetLayoutBinding meter[] = { { 0, STORAGE, 1, compute, NULL },
+                                                   { 1, STORAGE, 1, compute, NULL } };
+    ag_status status = gpu_set_layout_create(device, meter, 2, &b->meter_set);
+    return status ? status
+                  : gpu_pipeline_layout_create(device, &b->meter_set, 1, compute, sizeof(gpu_meter),
+                                               &b->metering);
+}
+
 static ag_status create_layouts(gpu_device *device, bindings *b)
 {
     const VkShaderStageFlags vertex = VK_SHADER_STAGE_VERTEX_BIT,
@@ -61,6 +72,8 @@ static ag_status create_layouts(gpu_device *device, bindings *b)
         status = gpu_pipeline_layout_create(device, &b->picture_set, 1,
                                             vertex | VK_SHADER_STAGE_FRAGMENT_BIT,
                                             sizeof(gpu_layer), &b->layers);
+    if (!status)
+        status = create_metering_layouts(device, b);
     return status ? status : create_shading_layouts(device, b);
 }
 
@@ -88,11 +101,11 @@ static ag_status create_samplers(gpu_device *device, bindings *b)
 static ag_status create_sets(gpu_device *device, bindings *b)
 {
     const VkDescriptorPoolSize sizes[] = {
-        { UNIFORM, 2 }, { IMAGE, 7 }, { STORAGE, 3 }, { TEXELS, 4 }
+        { UNIFORM, 2 }, { IMAGE, 7 }, { STORAGE, 5 }, { TEXELS, 4 }
     };
     const VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = 4,
+        .maxSets = 5,
         .poolSizeCount = sizeof sizes / sizeof *sizes,
         .pPoolSizes = sizes,
     };
@@ -102,12 +115,12 @@ static ag_status create_sets(gpu_device *device, bindings *b)
     if (status)
         return status;
     const VkDescriptorSetLayout layouts[] = { b->frame_set, b->picture_set, b->picture_set,
-                                              b->listed_set };
-    VkDescriptorSet sets[4];
+                                              b->listed_set, b->meter_set };
+    VkDescriptorSet sets[5];
     const VkDescriptorSetAllocateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
         .descriptorPool = b->pool,
-        .descriptorSetCount = 4,
+        .descriptorSetCount = 5,
         .pSetLayouts = layouts,
     };
     status = gpu_check(device, vkAllocateDescriptorSets(device->device, &info, sets),
@@ -118,6 +131,7 @@ static ag_status create_sets(gpu_device *device, bindings *b)
     b->picture = sets[1];
     b->sum = sets[2];
     b->listed = sets[3];
+    b->meter = sets[4];
     return AG_OK;
 }
 
@@ -143,6 +157,8 @@ void bindings_destroy(gpu_device *device, bindings *b)
     vkDestroyPipelineLayout(device->device, b->pictures, NULL);
     vkDestroyPipelineLayout(device->device, b->layers, NULL);
     vkDestroyPipelineLayout(device->device, b->shading, NULL);
+    vkDestroyPipelineLayout(device->device, b->metering, NULL);
+    vkDestroyDescriptorSetLayout(device->device, b->meter_set, NULL);
     vkDestroyDescriptorSetLayout(device->device, b->listed_set, NULL);
     vkDestroyDescriptorSetLayout(device->device, b->frame_set, NULL);
     vkDestroyDescriptorSetLayout(device->device, b->material_set, NULL);

@@ -7,15 +7,16 @@
 #include "gpu/pipeline.h"
 
 typedef struct bindings {
-    VkDescriptorSetLayout frame_set, material_set, picture_set, listed_set;
+    VkDescriptorSetLayout frame_set, material_set, picture_set, listed_set, meter_set;
     VkPipelineLayout surfaces; // frame, material; also the background's
     VkPipelineLayout pictures; // picture; push constants gpu_resolve
     VkPipelineLayout layers;   // picture; push constants gpu_layer
     VkPipelineLayout shading;  // frame, material, listed; push constants gpu_list
+    VkPipelineLayout metering; // meter; push constants gpu_meter
     VkSampler linear;          // clamped, between mips
     VkSampler panorama;        // wraps around, clamped above and below
     VkDescriptorPool pool;     // of the sets below
-    VkDescriptorSet frame, picture, sum, listed;
+    VkDescriptorSet frame, picture, sum, listed, meter;
 } bindings;
 
 AG_CHECK ag_status bindings_create(gpu_device *device, bindings *b);

@@ -75,6 +75,10 @@ static ag_status create_compute(gpu_device *device, const bindings *b, const pip
     };
     if (key->kind == PIPELINE_SHADE_BACKGROUND)
         desc.shader = shader_shade_background_comp();
+    if (key->kind == PIPELINE_METER) {
+        desc.shader = shader_meter_comp();
+        desc.layout = b->metering;
+    }
     return gpu_compute_create(device, &desc, pipeline);
 }
 

@@ -15,6 +15,7 @@ typedef enum pipeline_kind {
     PIPELINE_LAYER,      // an image in a window
     PIPELINE_SHADE,      // surfaces, from a list; this and what follows compute
     PIPELINE_SHADE_BACKGROUND,
+    PIPELINE_METER, // the histogram of a picture
 } pipeline_kind;
 
 // What tells pipelines apart.  Compared byte by byte: no padding.

@@ -52,11 +52,13 @@ void ag_renderer_destroy(ag_renderer *r)
     gpu_commands_destroy(r->device, &r->commands);
     resident_destroy(r->device, &r->resident);
     targets_destroy(r->device, &r->targets);
+    targets_destroy(r->device, &r->metered);
     visibility_destroy(r->device, &r->visibility);
     pipelines_destroy(r->device, &r->pipelines);
     gpu_buffer_destroy(r->device, &r->frame);
     gpu_buffer_destroy(r->device, &r->instances);
     gpu_buffer_destroy(r->device, &r->body);
+    gpu_buffer_destroy(r->device, &r->histogram);
     bindings_destroy(r->device, &r->bindings);
     free(r);
 }
@@ -216,7 +218,7 @@ static ag_status draw_tiles(ag_renderer *r, const picture *p, ag_image *image,
         if (status)
             return status;
         double drawn = clock_ms();
-        if (!p->into)
+        if (image)
             pixels_place(r->targets.pixels.memory.mapped, tile, image);
         stats->frame_ms += drawn - start;
         stats->readback_ms += clock_ms() - drawn;
@@ -334,4 +336,24 @@ ag_status renderer_draw_into(ag_renderer *r, const ag_scene *scene, const ag_cam
                              ag_render_stats *stats)
 {
     return make(r, scene, camera, options, into, NULL, stats);
+}
+
+ag_status renderer_draw_light(ag_renderer *r, const ag_scene *scene, const ag_camera_desc *camera,
+                              const ag_render_options *options)
+{
+    ag_render_options checked = *options;
+    ag_render_stats unwanted = { 0 };
+    picture p;
+    checked.quality = options->quality == AG_QUALITY_FAST ? AG_QUALITY_FAST : AG_QUALITY_BEST;
+    ag_status status = picture_check(scene, &checked);
+    if (!status)
+        status = plan(scene, camera, &checked, &p);
+    if (status)
+        return status;
+    p.frames = 1;
+    status = prepare(r, &p, &unwanted);
+    if (!status)
+        status = draw_tiles(r, &p, NULL, &unwanted);
+    draws_finish(&p.draws);
+    return status;
 }

@@ -36,6 +36,8 @@ struct ag_renderer {
     gpu_buffer instances; // gpu_instance
     gpu_buffer body;      // indices of the grid that a light's body is
     gpu_commands commands;
+    targets metered;      // as `targets`, of the small pictures that are metered
+    gpu_buffer histogram; // of one
 };
 
 // Have the scene's things on the device: what is there and unchanged is kept.  `release`:
@@ -54,5 +56,10 @@ AG_CHECK ag_status renderer_draw_into(ag_renderer *renderer, const ag_scene *sce
                                       const ag_camera_desc *camera,
                                       const ag_render_options *options, const gpu_image *into,
                                       ag_render_stats *stats);
+
+// Draw one frame of one sample a pixel and leave it in renderer->targets.pixels, premultiplied.
+AG_CHECK ag_status renderer_draw_light(ag_renderer *renderer, const ag_scene *scene,
+                                       const ag_camera_desc *camera,
+                                       const ag_render_options *options);
 
 #endif

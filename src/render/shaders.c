@@ -40,6 +40,9 @@ static const uint32_t shade_comp[] =
 static const uint32_t shade_background_comp[] =
 #include "shade_background.comp.inc"
     ;
+static const uint32_t meter_comp[] =
+#include "meter.comp.inc"
+    ;
 
 gpu_shader shader_surface_vert(void)
 {
@@ -104,4 +107,9 @@ gpu_shader shader_shade_comp(void)
 gpu_shader shader_shade_background_comp(void)
 {
     return (gpu_shader) { shade_background_comp, sizeof shade_background_comp };
+}
+
+gpu_shader shader_meter_comp(void)
+{
+    return (gpu_shader) { meter_comp, sizeof meter_comp };
 }

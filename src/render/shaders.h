@@ -17,5 +17,6 @@ gpu_shader shader_layer_vert(void);
 gpu_shader shader_layer_frag(void);
 gpu_shader shader_shade_comp(void);
 gpu_shader shader_shade_background_comp(void);
+gpu_shader shader_meter_comp(void);
 
 #endif

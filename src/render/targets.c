@@ -59,7 +59,8 @@ ag_status targets_ensure(gpu_device *device, const targets_desc *desc, targets *
     if (!status)
         status =
             gpu_buffer_create(device, texel * desc->width * desc->height,
-                              VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                              VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                               GPU_MEMORY_READBACK, &t->pixels);
     if (status)
         targets_destroy(device, t);
