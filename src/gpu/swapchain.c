@@ -73,8 +73,10 @@ static void destroy_images(gpu_device *device, gpu_swapchain *s)
 void gpu_swapchain_destroy(gpu_device *device, gpu_swapchain *s)
 {
     destroy_images(device, s);
-    vkDestroySwapchainKHR(device->device, s->swapchain, NULL);
-    vkDestroySurfaceKHR(device->instance, s->surface, NULL);
+    if (s->swapchain) // else the device may know no windows
+        vkDestroySwapchainKHR(device->device, s->swapchain, NULL);
+    if (s->surface)
+        vkDestroySurfaceKHR(device->instance, s->surface, NULL);
     *s = (gpu_swapchain) { 0 };
 }
 
