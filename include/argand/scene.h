@@ -51,7 +51,8 @@ typedef struct ag_load_options {
 } ag_load_options;
 
 // Read a glTF 2.0 file (.gltf with its files, or .glb) and append it.  Its nodes are
-// flattened; skins and morph targets are applied in the pose that the file gives.
+// flattened; skins and morph targets are applied in the pose that the file gives.  The
+// environment and the exposure of the scene become the file's, if it has them (ARGAND_lights).
 // Files beside it are read only from its own folder and below.  NULL options ->
 // defaults.  AG_ERROR_UNSUPPORTED names a required extension that is not known.
 AG_CHECK ag_status ag_scene_load(ag_scene *scene, const char *path, const ag_load_options *options);

@@ -91,7 +91,7 @@ static ag_status fill_scene(gltf_file *file)
         status = gltf_materials_add(file);
     if (!status)
         status = gltf_instances_add(file);
-    return status ? status : gltf_surround_read(file);
+    return status;
 }
 
 ag_status gltf_import(ag_scene *scene, const char *path, void *bytes, size_t size,
@@ -112,6 +112,8 @@ ag_status gltf_import(ag_scene *scene, const char *path, void *bytes, size_t siz
         status = fill_scene(&file);
     if (!status)
         status = gltf_progress(&file, "load", 1.0);
+    if (!status)
+        status = gltf_surround_read(&file);
     *decode_ms = file.decode_ms;
     finish(&file);
     return status;

@@ -92,13 +92,11 @@ void gltf_material_write_argand(gltf_writer *w, json_t *material, const ag_mater
         unsigned value;
         memcpy(&value, (const char *)desc + choices[i].offset, sizeof value);
         if (value)
-            gltf_put_text(w, made, choices[i].key, choices[i].words[value]);
+            gltf_put_word(w, made, choices[i].key, choices[i].words[value]);
     }
     for (size_t i = 0; i < NUMBERS; i++)
         put_number(w, made, &numbers[i], desc, &assumed);
     if (desc->single_bounce)
         gltf_put_true(w, made, "singleBounce");
-    if (json_object_size(made))
-        json_object_update(gltf_put_extension(w, material, "ARGAND_materials"), made);
-    json_decref(made);
+    gltf_put_extension_unless_empty(w, material, "ARGAND_materials", made);
 }

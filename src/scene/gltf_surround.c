@@ -168,7 +168,7 @@ ag_status gltf_write_surround(gltf_writer *w)
     if (scene->environment_kind == AG_ENVIRONMENT_IMAGE)
         status = add_image(w, environment);
     if (scene->environment_kind != AG_ENVIRONMENT_STUDIO || json_object_size(environment)) {
-        gltf_put_text(w, environment, "type", kinds[scene->environment_kind]);
+        gltf_put_word(w, environment, "type", kinds[scene->environment_kind]);
         gltf_put(w, gltf_put_extension(w, w->root, "ARGAND_lights"), "environment",
                  json_incref(environment));
     }

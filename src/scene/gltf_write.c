@@ -42,8 +42,8 @@ static void finish(gltf_writer *w)
 static void begin(gltf_writer *w)
 {
     json_t *asset = gltf_put_object(w, w->root, "asset");
-    gltf_put_text(w, asset, "version", "2.0");
-    gltf_put_text(w, asset, "generator", "Argand");
+    gltf_put_word(w, asset, "version", "2.0");
+    gltf_put_word(w, asset, "generator", "Argand");
     gltf_put(w, w->root, "extensionsUsed", json_array());
     gltf_put_index(w, w->root, "scene", 0);
     gltf_append(w, w->root, "scenes", json_object());

@@ -36,13 +36,15 @@ AG_CHECK ag_status gltf_write(const ag_scene *scene, const char *path, file_writ
 
 // Give `object` a member.  The value is taken over; NULL counts as a lack of memory.
 void gltf_put(gltf_writer *w, json_t *object, const char *key, json_t *value);
-// Numbers are written as the shortest decimals that are read back as the same floats.
+// Numbers are written as decimals that are read back as the same floats.
 json_t *gltf_numbers(gltf_writer *w, const float *values, size_t count); // the caller's
 void gltf_put_floats(gltf_writer *w, json_t *object, const char *key, const float *values,
                      size_t count);
 void gltf_put_float(gltf_writer *w, json_t *object, const char *key, float value);
 void gltf_put_index(gltf_writer *w, json_t *object, const char *key, size_t value);
-void gltf_put_text(gltf_writer *w, json_t *object, const char *key, const char *text);
+void gltf_put_word(gltf_writer *w, json_t *object, const char *key, const char *word);
+// NULL is allowed; what is not UTF-8 cannot stand in JSON and is left out.
+void gltf_put_name(gltf_writer *w, json_t *object, const char *name);
 void gltf_put_true(gltf_writer *w, json_t *object, const char *key);
 // Only what differs from what readers assume.
 void gltf_put_floats_unless(gltf_writer *w, json_t *object, const char *key, const float *values,
@@ -51,6 +53,9 @@ void gltf_put_float_unless(gltf_writer *w, json_t *object, const char *key, floa
                            float assumed);
 // An object or array made beforehand, unless it is empty.
 void gltf_put_unless_empty(gltf_writer *w, json_t *object, const char *key, json_t *value);
+// The same as an extension of the object.
+void gltf_put_extension_unless_empty(gltf_writer *w, json_t *object, const char *name,
+                                     json_t *value);
 // The member's object, made where there is none yet.
 json_t *gltf_put_object(gltf_writer *w, json_t *object, const char *key);
 // The object's extension, likewise; it is listed as used.

@@ -14,7 +14,7 @@ static float near_of(const ag_camera_desc *d, const view *v)
 static void put_perspective(gltf_writer *w, json_t *camera, const ag_camera_desc *d, const view *v)
 {
     json_t *made = gltf_put_object(w, camera, "perspective");
-    gltf_put_text(w, camera, "type", "perspective");
+    gltf_put_word(w, camera, "type", "perspective");
     gltf_put_float(w, made, "yfov", d->fov_y_rad);
     gltf_put_float(w, made, "znear", near_of(d, v));
     if (d->far_m > 0.0f)
@@ -25,7 +25,7 @@ static void put_orthographic(gltf_writer *w, json_t *camera, const ag_camera_des
 {
     json_t *made = gltf_put_object(w, camera, "orthographic");
     float near = near_of(d, v), far = fmaxf(v->far_m, 2.0f * near + 1.0f);
-    gltf_put_text(w, camera, "type", "orthographic");
+    gltf_put_word(w, camera, "type", "orthographic");
     gltf_put_float(w, made, "xmag", 0.5f * d->height_m);
     gltf_put_float(w, made, "ymag", 0.5f * d->height_m);
     gltf_put_float(w, made, "znear", near);

@@ -7,21 +7,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// The shortest decimal that is read back as `value`; -0 becomes 0.  JSON has no infinity.
-static double shortest(float value)
+// The decimal of few digits that is read back as `value`, else the value itself, of which
+// the file's nine digits say enough; -0 becomes 0.  JSON has no infinity.
+static double decimal(float value)
 {
     char text[32];
     value = fminf(fmaxf(value, -FLT_MAX), FLT_MAX);
-    double read = (double)value;
-    for (int digits = 6; digits < 9; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        double shorter = strtod(text, NULL);
-        if ((float)shorter == value) {
-            read = shorter;
-            break;
-        }
-    }
-    return read + 0.0;
+    if (fabsf(value) < 1e6f && floorf(value) == value)
+        return (double)value + 0.0;
+    snprintf(text, sizeof text, "%.6g", (double)value);
+    double few = strtod(text, NULL);
+    return (float)few == value ? few : (double)value;
 }
 
 void gltf_put(gltf_writer *w, json_t *object, const char *key, json_t *value)
@@ -34,7 +30,7 @@ json_t *gltf_numbers(gltf_writer *w, const float *values, size_t count)
 {
     json_t *array = json_array();
     for (size_t i = 0; i < count; i++)
-        if (json_array_append_new(array, json_real(shortest(values[i]))) != 0)
+        if (json_array_append_new(array, json_real(decimal(values[i]))) != 0)
             w->no_memory = true;
     return array;
 }
@@ -47,7 +43,7 @@ void gltf_put_floats(gltf_writer *w, json_t *object, const char *key, const floa
 
 void gltf_put_float(gltf_writer *w, json_t *object, const char *key, float value)
 {
-    gltf_put(w, object, key, json_real(shortest(value)));
+    gltf_put(w, object, key, json_real(decimal(value)));
 }
 
 void gltf_put_index(gltf_writer *w, json_t *object, const char *key, size_t value)
@@ -55,12 +51,16 @@ void gltf_put_index(gltf_writer *w, json_t *object, const char *key, size_t valu
     gltf_put(w, object, key, json_integer((json_int_t)value));
 }
 
-// What is not UTF-8 cannot stand in JSON: it is left out.
-void gltf_put_text(gltf_writer *w, json_t *object, const char *key, const char *text)
+void gltf_put_word(gltf_writer *w, json_t *object, const char *key, const char *word)
 {
-    json_t *string = text ? json_string(text) : NULL;
+    gltf_put(w, object, key, json_string_nocheck(word));
+}
+
+void gltf_put_name(gltf_writer *w, json_t *object, const char *name)
+{
+    json_t *string = name ? json_string(name) : NULL;
     if (string)
-        gltf_put(w, object, key, string);
+        gltf_put(w, object, "name", string);
 }
 
 void gltf_put_true(gltf_writer *w, json_t *object, const char *key)
@@ -91,6 +91,15 @@ void gltf_put_unless_empty(gltf_writer *w, json_t *object, const char *key, json
         json_decref(value);
     else
         gltf_put(w, object, key, value);
+}
+
+void gltf_put_extension_unless_empty(gltf_writer *w, json_t *object, const char *name,
+                                     json_t *value)
+{
+    if (json_object_size(value) &&
+        json_object_update(gltf_put_extension(w, object, name), value) != 0)
+        w->no_memory = true;
+    json_decref(value);
 }
 
 json_t *gltf_put_object(gltf_writer *w, json_t *object, const char *key)

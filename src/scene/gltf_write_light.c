@@ -103,7 +103,7 @@ static void put_punctual(gltf_writer *w, json_t *node, const ag_light_desc *d)
     const float half_pi = 1.57079632679f, pi = 3.14159265f;
     float intensity = d->intensity;
     json_t *light = json_object();
-    gltf_put_text(w, light, "type", words[d->kind]);
+    gltf_put_word(w, light, "type", words[d->kind]);
     if (d->kind == AG_LIGHT_SPOT)
         put_cone(w, light, d->cone_inner_rad, d->cone_outer_rad);
     if (d->kind == AG_LIGHT_RECT || d->kind == AG_LIGHT_DISK)
@@ -160,7 +160,7 @@ static void put_argand(gltf_writer *w, json_t *node, const ag_light_desc *d)
     while (word->kind != d->kind)
         word++;
     json_t *light = json_object();
-    gltf_put_text(w, light, "type", word->type);
+    gltf_put_word(w, light, "type", word->type);
     gltf_put_floats_unless(w, light, "color", d->color, 3, ones);
     gltf_put_float(w, light, "intensity", d->intensity);
     put_sizes(w, light, d);

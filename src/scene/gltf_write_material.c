@@ -124,7 +124,7 @@ static void put_alpha(gltf_writer *w, json_t *material, const ag_material_desc *
 {
     static const char *const modes[] = { "OPAQUE", "MASK", "BLEND" };
     if (d->alpha_mode != AG_ALPHA_OPAQUE || d->alpha_cutoff != 0.5f)
-        gltf_put_text(w, material, "alphaMode", modes[d->alpha_mode]);
+        gltf_put_word(w, material, "alphaMode", modes[d->alpha_mode]);
     gltf_put_float_unless(w, material, "alphaCutoff", d->alpha_cutoff, 0.5f);
 }
 
@@ -137,9 +137,7 @@ static void put_dielectric(gltf_writer *w, json_t *material, const ag_material_d
     gltf_put_floats_unless(w, specular, "specularColorFactor", d->specular_color, 3, ones);
     put_use(w, specular, "specularTexture", &d->specular_texture);
     put_use(w, specular, "specularColorTexture", &d->specular_color_texture);
-    if (json_object_size(specular))
-        json_object_update(gltf_put_extension(w, material, "KHR_materials_specular"), specular);
-    json_decref(specular);
+    gltf_put_extension_unless_empty(w, material, "KHR_materials_specular", specular);
 }
 
 static void put_anisotropy(gltf_writer *w, json_t *material, const ag_material_desc *d)
@@ -155,7 +153,7 @@ static void write_material(gltf_writer *w, const ag_material_desc *d)
 {
     json_t *material = json_object();
     gltf_append(w, w->root, "materials", material);
-    gltf_put_text(w, material, "name", d->name);
+    gltf_put_name(w, material, d->name);
     put_metallic_roughness(w, material, d);
     put_surface(w, material, d);
     put_emission(w, material, d);

@@ -33,7 +33,7 @@ static uint32_t add_accessor(gltf_writer *w, uint32_t view, gltf_component compo
     gltf_put_index(w, *accessor, "bufferView", view);
     gltf_put_index(w, *accessor, "componentType", (size_t)component);
     gltf_put_index(w, *accessor, "count", count);
-    gltf_put_text(w, *accessor, "type", type);
+    gltf_put_word(w, *accessor, "type", type);
     return gltf_append(w, w->root, "accessors", *accessor);
 }
 

@@ -38,7 +38,7 @@ bool gltf_write_shows(const scene_instance *instance)
 json_t *gltf_write_node(gltf_writer *w, const float world[16], const char *name)
 {
     json_t *node = json_object();
-    gltf_put_text(w, node, "name", name);
+    gltf_put_name(w, node, name);
     put_place(w, node, world);
     uint32_t index = gltf_append(w, w->root, "nodes", node);
     json_t *scene = json_array_get(json_object_get(w->root, "scenes"), 0);

@@ -115,7 +115,7 @@ static ag_status add_image(gltf_writer *w, encode_job *job)
     uint32_t view = gltf_add_view(w, job->data, job->size, 0);
     json_t *made = json_object();
     gltf_put_index(w, made, "bufferView", view);
-    gltf_put_text(w, made, "mimeType", "image/png");
+    gltf_put_word(w, made, "mimeType", "image/png");
     gltf_append(w, w->root, "images", made);
     return job->status;
 }
