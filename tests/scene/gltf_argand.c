@@ -223,13 +223,34 @@ static void bad_environments(void **state)
     assert_int_equal(k->scene->environment_kind, AG_ENVIRONMENT_STUDIO);
 }
 
+static bool stop_at_the_end(void *user, const char *stage, double fraction)
+{
+    (void)user;
+    return strcmp(stage, "load") != 0 || fraction < 1;
+}
+
+// Cancelled at the last moment the scene is what it was.
+static void cancelled(void **state)
+{
+    kit *k = *state;
+    kit_loads(k,
+              kit_document(36, "", "", "",
+                           ",'extensions':{'ARGAND_lights':{'exposure':{'factor':5},"
+                           "'environment':{'type':'sky'}}}"),
+              kit_triangle, 36, 0);
+    const ag_load_options options = { .progress = { .update = stop_at_the_end } };
+    assert_int_equal(kit_load_path(k, kit_path(k, "model.glb"), &options), AG_ERROR_CANCELLED);
+    assert_int_equal(k->scene->environment_kind, AG_ENVIRONMENT_STUDIO);
+    kit_near(ag_scene_exposure(k->scene), 1, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(choices),           cmocka_unit_test(bad_choices),
         cmocka_unit_test(shared_tangents),   cmocka_unit_test(targets),
         cmocka_unit_test(environment_kinds), cmocka_unit_test(environment_images),
-        cmocka_unit_test(bad_environments),
+        cmocka_unit_test(bad_environments),  cmocka_unit_test(cancelled),
     };
     return cmocka_run_group_tests(tests, kit_setup, kit_teardown);
 }

@@ -6,6 +6,7 @@
 
 #include <argand/renderer.h>
 #include <dirent.h>
+#include <jansson.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -408,6 +409,11 @@ static void lights(void **state)
     ag_mesh mesh;
     ag_scene *scene = make_scene(&mesh);
     show(scene, mesh, NULL, NULL);
+    OK(ag_scene_name_instance(scene, (ag_instance) { 1 }, "\xff is no UTF-8"));
+    OK(ag_scene_save(scene, kit_path(k, "first.glb")));
+    OK(kit_load_path(k, kit_path(k, "first.glb"), NULL));
+    assert_null(k->scene->instances[0].name);
+    OK(ag_scene_name_instance(scene, (ag_instance) { 1 }, NULL));
     for (int i = 0; i < 4 * (AG_LIGHT_HARMONICS + 1); i++) {
         float x = 1.0f / (float)(i + 3);
         ag_light_desc d = {
@@ -604,6 +610,52 @@ static void full_disk(void **state)
     assert_int_equal(was.st_ino, is.st_ino);
 }
 
+static int allocations_left;
+
+static void *allocate(size_t size)
+{
+    return allocations_left-- > 0 ? malloc(size) : NULL;
+}
+
+// Wherever the memory for the JSON ends it is told, and nothing is written.
+static void no_memory(void **state)
+{
+    kit *k = *state;
+    ag_mesh mesh;
+    ag_scene *scene = make_scene(&mesh);
+    ag_material_desc d = ag_material_default();
+    ag_light light;
+    ag_camera camera;
+    d.emissive[0] = 7;
+    d.diffuse = AG_DIFFUSE_EON;
+    d.specular = 0.5f;
+    d.base_color_texture.texture = add_texture(scene, 4, 1, &(ag_texture_desc) { 0 });
+    show(scene, mesh, &d, NULL);
+    OK(ag_scene_add_light(scene, &(ag_light_desc) { .kind = AG_LIGHT_HARMONICS }, &light));
+    OK(ag_scene_add_light(scene, &(ag_light_desc) { .kind = AG_LIGHT_SPHERE }, &light));
+    OK(ag_scene_add_camera(scene, &(ag_camera_desc) { .position = { 0, 0, 1 } }, &camera));
+    OK(ag_scene_set_exposure(scene, 2));
+    round_trip(k, scene);
+    unlink(kit_path(k, "first.glb"));
+    scene->log = k->scene->log;
+    json_set_alloc_funcs(allocate, free);
+    ag_status status = AG_ERROR_MEMORY;
+    int count = 0;
+    for (; status == AG_ERROR_MEMORY; count++) {
+        k->said[0] = 0;
+        allocations_left = count;
+        status = ag_scene_save(scene, kit_path(k, "first.glb"));
+        bool told = strstr(k->said, "no memory to write it") != NULL;
+        assert_int_equal(told, status == AG_ERROR_MEMORY);
+        assert_int_equal(access(kit_path(k, "first.glb"), F_OK) == 0, status == AG_OK);
+    }
+    json_set_alloc_funcs(malloc, free);
+    OK(status);
+    assert_true(count > 200);
+    same_files(k, "first.glb", "second.glb");
+    ag_scene_destroy(scene);
+}
+
 static void released_images(void **state)
 {
     kit *k = *state;
@@ -630,6 +682,7 @@ int main(void)
         cmocka_unit_test(cameras),         cmocka_unit_test(environments),
         cmocka_unit_test(extremes),        cmocka_unit_test(bad_places),
         cmocka_unit_test(full_disk),       cmocka_unit_test(released_images),
+        cmocka_unit_test(no_memory),
     };
     return cmocka_run_group_tests(tests, kit_setup, kit_teardown);
 }
