@@ -1,0 +1,159 @@
+// The file that is shown: loaded beside, watched, loaded again.
+#include "state.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { DRAFT_BYTES = 8 << 20 }; // files from this size on show something before all is there
+static const double watch_s = 0.5;
+
+static bool is_file(const char *input)
+{
+    return input[0] && strncmp(input, "demo:", 5) != 0;
+}
+
+static bool look_at(const char *path, int64_t *changed_ns, int64_t *size)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return false;
+    *changed_ns = (int64_t)info.st_mtim.tv_sec * 1000000000 + info.st_mtim.tv_nsec;
+    *size = info.st_size;
+    return true;
+}
+
+// ---- Loading -----------------------------------------------------------------
+
+static ag_status load_job(void *context, worker *self)
+{
+    loading *l = context;
+    const ag_log log = worker_log(self, l->setup->level);
+    const ag_progress progress = worker_progress(self);
+    return l->setup->open(l->setup->user, l->input, l->draft, &log, &progress, &l->document);
+}
+
+static void begin(viewer *v)
+{
+    loading *l = &v->loading;
+    worker_start(l->worker, load_job, l);
+    v->layers_stale = true;
+}
+
+void document_load(viewer *v, const char *input, bool keeps_view)
+{
+    loading *l = &v->loading;
+    if (worker_is_busy(l->worker)) {
+        snprintf(l->next, sizeof l->next, "%s", input);
+        worker_stop(l->worker);
+        return;
+    }
+    ag_scene_destroy(l->document.scene); // loaded, and never shown
+    l->document = (viewer_document) { 0 };
+    l->ready = false;
+    l->keeps_view = keeps_view;
+    if (input != l->input)
+        snprintf(l->input, sizeof l->input, "%s", input);
+    v->watching = (watching) { .next = v->now + watch_s };
+    l->draft = false;
+    if (is_file(l->input) &&
+        look_at(l->input, &v->watching.changed_ns, &v->watching.size)) {
+        const char *end = strrchr(l->input, '.');
+        l->draft = !keeps_view && (v->watching.size >= DRAFT_BYTES ||
+                                   (end && strcmp(end, ".gltf") == 0));
+    }
+    begin(v);
+}
+
+// ---- Showing -----------------------------------------------------------------
+
+static void set_title(viewer *v)
+{
+    char title[HUD_TEXT_MAX + 16];
+    const char *input = v->loading.input, *name = strrchr(input, '/');
+    snprintf(v->shown.file, sizeof v->shown.file, "%s", name ? name + 1 : input);
+    snprintf(title, sizeof title, "%s - argand", v->shown.file);
+    screen_set_title(v->screen, title);
+}
+
+// A document that comes a second time keeps what the user has made of its view.
+static void set_view(viewer *v, const viewer_document *d)
+{
+    navigation_measure(&v->navigation, &v->shown.scene);
+    navigation_take(&v->navigation, &d->camera);
+    v->camera = 0;
+    v->eye.automatic = d->auto_exposure;
+    v->eye.metering = d->metering;
+    v->eye.ev100 = v->eye.target_ev100 = NAN;
+    v->eye.exposure = d->look.exposure > 0 ? d->look.exposure : ag_scene_exposure(d->scene);
+}
+
+static void swap(viewer *v)
+{
+    loading *l = &v->loading;
+    ag_render_options look = v->document.look;
+    bool keeps = l->keeps_view && v->document.scene;
+    tracer_forget(v->tracer);
+    ag_scene_destroy(v->document.scene);
+    v->document = l->document;
+    l->document = (viewer_document) { 0 };
+    l->ready = false;
+    if (keeps)
+        v->document.look = look;
+    v->shown.scene = ag_scene_summarize(v->document.scene);
+    if (!keeps)
+        set_view(v, &v->document);
+    v->picked = v->hovered = (selection) { 0 };
+    v->first = true;
+    set_title(v);
+    viewer_redraw(v);
+    if (l->draft) { // all of it, from where the user has gone meanwhile
+        l->draft = false;
+        l->keeps_view = true;
+        begin(v);
+    }
+}
+
+void document_collect(viewer *v)
+{
+    loading *l = &v->loading;
+    ag_status status;
+    if (worker_collect(l->worker, &status)) {
+        l->ready = !status;
+        v->layers_stale = true;
+        if (l->next[0]) {
+            char next[INPUT_MAX];
+            memcpy(next, l->next, sizeof next);
+            l->next[0] = 0;
+            document_load(v, next, false);
+        }
+    }
+    if (l->ready && viewer_can_edit(v))
+        swap(v);
+}
+
+// ---- Watching ----------------------------------------------------------------
+
+// A file that is being written changes more than once: it is read when it has been the same twice.
+void document_watch(viewer *v)
+{
+    watching *w = &v->watching;
+    if (v->now < w->next || worker_is_busy(v->loading.worker) || !is_file(v->loading.input))
+        return;
+    w->next = v->now + watch_s;
+    int64_t changed_ns, size;
+    if (!look_at(v->loading.input, &changed_ns, &size)) {
+        if (!w->gone)
+            viewer_say(v, true, "%s is gone; what was loaded stays", v->loading.input);
+        w->gone = true;
+        return;
+    }
+    bool other = changed_ns != w->changed_ns || size != w->size;
+    w->changed_ns = changed_ns;
+    w->size = size;
+    if (!other && (w->differs || w->gone))
+        document_load(v, v->loading.input, true);
+    else
+        w->differs = other;
+}

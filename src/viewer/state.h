@@ -1,0 +1,177 @@
+// The viewer's state, which only the window's thread touches, and what moves it.
+//
+// The painter, the tracer, the loader and the saver work beside it.  The first two and the last
+// read the scene; it is changed only while none of them is at work (viewer_can_edit).
+#ifndef VIEWER_STATE_H
+#define VIEWER_STATE_H
+
+#include "hud.h"
+#include "navigation.h"
+#include "painter.h"
+#include "screen.h"
+#include "tracer.h"
+#include "viewer.h"
+#include "worker.h"
+
+enum { INPUT_MAX = 4096 };
+
+// What is being loaded, and what the file looked like when it was.
+typedef struct loading {
+    worker *worker;
+    char input[INPUT_MAX], next[INPUT_MAX]; // next: asked for while another was loading
+    bool draft, keeps_view;
+    bool ready; // `document` waits until it may be shown
+    viewer_document document;
+    const viewer_setup *setup;
+} loading;
+
+typedef struct watching {
+    int64_t changed_ns, size; // of the file that is shown
+    bool gone, differs;       // since the last look
+    double next;              // s, when to look again
+} watching;
+
+typedef struct eye {
+    bool automatic;
+    ag_metering metering;
+    float target_ev100, ev100; // of automatic exposure; NAN: not yet metered
+    float exposure;            // what pictures have
+    double stepped;            // s
+} eye;
+
+typedef enum drag {
+    DRAG_NONE = 0,
+    DRAG_TURN,
+    DRAG_PAN,
+    DRAG_LOOK,
+    DRAG_SPLIT,
+    DRAG_LIGHT,
+} drag;
+
+typedef struct pointing {
+    drag drag;
+    double from[2];  // px, where the pointer was last
+    double press[2]; // px, where a button went down
+    bool moved;      // since then
+} pointing;
+
+typedef struct truth {
+    bool wanted, stale;      // stale: what is traced is no longer what is seen
+    double split;            // where the line is, 0 to 1 of the width
+    ag_image *picture;       // traced; NULL: none yet
+    ag_image *beside;        // the real-time picture; NULL: to be made
+    uint64_t version;
+    uint32_t samples;
+    float noise, flip; // flip below 0: not known
+    bool beside_wanted;
+} truth;
+
+// What is picked.
+typedef struct selection {
+    enum { PICK_NOTHING = 0, PICK_LIGHT, PICK_MATERIAL } kind;
+    size_t index;    // of the light or the material
+    float place[3];  // m, where it was picked
+    float radius;    // m, to frame it
+    bool hovers;     // only lies under the pointer
+} selection;
+
+typedef struct message {
+    char text[4 * HUD_TEXT_MAX];
+    bool alarm;
+    double until; // s
+} message;
+
+typedef struct viewer {
+    const viewer_setup *setup;
+    viewer_report *report;
+    screen *screen;
+    hud *hud;
+    painter *painter;
+    tracer *tracer;
+    loading loading;
+    watching watching;
+    viewer_document document; // shown; scene NULL: none yet
+    navigation navigation;
+    eye eye;
+    pointing pointing;
+    truth truth;
+    selection picked, hovered;
+    message message;
+    hud_state shown;
+    ag_image *white; // a pixel
+    double started, now;
+
+    bool quits;
+    bool picture_stale; // the scene must be drawn again
+    bool layers_stale;  // only what lies over it
+    bool meters;        // with the next picture
+    bool first;         // nothing of the document has been shown
+    double moved;       // s, when the view last changed
+    bool rough;         // the picture has less than full resolution
+    double ms_per_mpx;  // what drawing takes
+    double stepped;     // s, of the navigation
+    double *frame_ms;   // of the frames that were asked for
+    uint32_t frame_count;
+    uint32_t camera; // of the file, the next one
+    paint_order ordered;           // last
+    ag_camera_desc ordered_camera; // of the last picture
+    double painted;                // s, when it came
+    uint32_t losses;               // of the device, one after the other
+    bool moving;                   // the navigation moves by itself
+    double rests_at;               // s, when to look what the pointer is on; 0: no need
+    bool hidden;                   // the window has no area
+    bool shoots;                   // the next sharp picture is saved
+    worker *saver;
+    ag_image *saved;
+    char save_path[INPUT_MAX];
+    ag_status failed; // why it ends
+} viewer;
+
+// ---- viewer.c ------------------------------------------------------------------
+
+// Say something over the picture, and to the log.
+__attribute__((format(printf, 3, 4))) void viewer_say(viewer *v, bool alarm, const char *format,
+                                                      ...);
+
+// What is seen will be another picture: the camera, the scene or the look has changed.
+void viewer_redraw(viewer *v);
+
+// Whether nobody reads the scene.  If not, those who may be stopped are.
+bool viewer_can_edit(viewer *v);
+
+// ---- document.c ----------------------------------------------------------------
+
+void document_load(viewer *v, const char *input, bool keeps_view);
+void document_collect(viewer *v); // take over what was loaded
+void document_watch(viewer *v);   // reload a file that has changed
+
+// ---- actions.c -----------------------------------------------------------------
+
+void actions_do(viewer *v, action a);
+void actions_collect(viewer *v); // what was saved beside
+void actions_keep(viewer *v, ag_image *picture); // takes what the painter brought back
+void actions_describe(const viewer *v, hud_state *s);
+
+// ---- pointer.c -----------------------------------------------------------------
+
+void pointer_event(viewer *v, const screen_event *event);
+void pointer_step(viewer *v); // of flying, and what the pointer rests on
+
+// ---- picture.c -----------------------------------------------------------------
+
+void picture_collect(viewer *v);
+void picture_begin(viewer *v);       // when the painter is idle and something is stale
+void picture_follow_truth(viewer *v); // keep the tracer at work
+double picture_next(const viewer *v); // s to wait for the next event; below 0: without end
+
+// ---- picking.c -----------------------------------------------------------------
+
+selection picking_at(const viewer *v, const double at[2]);
+void picking_pick(viewer *v, selection what);
+void picking_next_light(viewer *v);
+void picking_strengthen(viewer *v, double steps); // intensity, roughness
+void picking_enlarge(viewer *v, double steps);    // radius, metalness
+void picking_drag(viewer *v, const double from[2], const double to[2]);
+void picking_describe(const viewer *v, hud_state *shown);
+
+#endif

@@ -1,0 +1,190 @@
+// The viewer: its life from the first pixel to the last.
+#include "state.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MESSAGE_S = 4 };
+
+void viewer_say(viewer *v, bool alarm, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(v->message.text, sizeof v->message.text, format, args);
+    va_end(args);
+    v->message.alarm = alarm;
+    v->message.until = v->now + (alarm ? 3 : 1) * MESSAGE_S;
+    v->layers_stale = true;
+    const ag_log *log = v->setup->log;
+    ag_log_level level = alarm ? AG_LOG_ERROR : AG_LOG_INFO;
+    if (log && log->write && level <= v->setup->level)
+        log->write(log->user, level, v->message.text);
+}
+
+void viewer_redraw(viewer *v)
+{
+    v->picture_stale = true;
+    v->meters = true;
+    v->truth.stale = true;
+}
+
+bool viewer_can_edit(viewer *v)
+{
+    if (worker_is_busy(tracer_worker(v->tracer)))
+        worker_stop(tracer_worker(v->tracer));
+    return !worker_is_busy(painter_worker(v->painter)) &&
+           !worker_is_busy(tracer_worker(v->tracer)) && !worker_is_busy(v->saver);
+}
+
+// ---- What the threads say --------------------------------------------------------
+
+static void hear(viewer *v, worker *w)
+{
+    ag_log_level level;
+    char sentence[WORKER_SENTENCE_MAX];
+    while (worker_hear(w, &level, sentence)) {
+        const ag_log *log = v->setup->log;
+        if (log && log->write)
+            log->write(log->user, level, sentence);
+        if (level > AG_LOG_WARNING)
+            continue;
+        snprintf(v->message.text, sizeof v->message.text, "%s", sentence);
+        v->message.alarm = level == AG_LOG_ERROR;
+        v->message.until = v->now + 3 * MESSAGE_S;
+        v->layers_stale = true;
+    }
+}
+
+static void hear_all(viewer *v)
+{
+    hear(v, v->loading.worker);
+    hear(v, painter_worker(v->painter));
+    hear(v, tracer_worker(v->tracer));
+    hear(v, v->saver);
+    if (v->message.text[0] && v->now >= v->message.until) {
+        v->message.text[0] = 0;
+        v->layers_stale = true;
+    }
+}
+
+// ---- Its life --------------------------------------------------------------------
+
+static ag_status no_memory(const viewer *v)
+{
+    if (v->setup->log && v->setup->log->write)
+        v->setup->log->write(v->setup->log->user, AG_LOG_ERROR, "no memory for the viewer");
+    return AG_ERROR_MEMORY;
+}
+
+static ag_status create_parts(viewer *v)
+{
+    const viewer_setup *setup = v->setup;
+    const ag_log log = setup->log ? *setup->log : (ag_log) { 0 };
+    ag_status status = screen_create(&log, "argand", setup->width, setup->height, &v->screen);
+    if (status)
+        return status;
+    v->started = screen_time();
+    const painter_desc painter = { setup->device, setup->validate, setup->level };
+    v->hud = hud_create(setup->log);
+    v->painter = painter_create(v->screen, &painter);
+    v->tracer = tracer_create(setup->level);
+    v->loading.worker = worker_create(screen_wake);
+    v->loading.setup = setup;
+    v->saver = worker_create(screen_wake);
+    v->frame_ms = calloc(setup->frames + 1ul, sizeof *v->frame_ms);
+    if (!v->hud || !v->painter || !v->tracer || !v->loading.worker || !v->saver || !v->frame_ms)
+        return no_memory(v);
+    const uint8_t white[4] = { 255, 255, 255, 255 };
+    const ag_image_desc pixel = { 1, 1, AG_FORMAT_RGBA8, white };
+    return ag_image_create(setup->log, &pixel, &v->white);
+}
+
+// The window goes at once; then everybody is stopped, and at last what they read is freed.
+static void destroy_parts(viewer *v)
+{
+    if (v->loading.worker)
+        worker_stop(v->loading.worker);
+    if (v->tracer)
+        worker_stop(tracer_worker(v->tracer));
+    painter_destroy(v->painter);
+    tracer_destroy(v->tracer);
+    worker_destroy(v->saver);
+    worker_destroy(v->loading.worker);
+    hud_destroy(v->hud);
+    ag_scene_destroy(v->loading.document.scene);
+    ag_scene_destroy(v->document.scene);
+    ag_image_destroy(v->truth.picture);
+    ag_image_destroy(v->truth.beside);
+    ag_image_destroy(v->white);
+    screen_destroy(v->screen);
+    free(v->frame_ms);
+}
+
+static void handle_events(viewer *v)
+{
+    screen_event event;
+    while (screen_event_next(v->screen, &event)) {
+        if (event.kind == SCREEN_KEY)
+            actions_do(v, keys_action(event.key, event.modifiers));
+        else if (event.kind == SCREEN_DROP && event.path)
+            document_load(v, event.path, false);
+        else
+            pointer_event(v, &event);
+        free(event.path);
+    }
+    if (screen_damaged(v->screen))
+        viewer_redraw(v); // of another size perhaps
+    v->quits |= screen_closing(v->screen);
+}
+
+static void run(viewer *v)
+{
+    document_load(v, v->setup->input, false);
+    while (!v->quits) {
+        v->now = screen_time();
+        hear_all(v);
+        handle_events(v);
+        document_collect(v);
+        document_watch(v);
+        actions_collect(v);
+        picture_collect(v);
+        pointer_step(v);
+        picture_follow_truth(v);
+        picture_begin(v);
+        if (!v->quits)
+            screen_wait(v->screen, picture_next(v));
+    }
+}
+
+static int by_time(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+ag_status viewer_run(const viewer_setup *setup, viewer_report *report)
+{
+    viewer_report unwanted;
+    viewer v = { .setup = setup, .report = report ? report : &unwanted, .first = true };
+    *v.report = (viewer_report) { 0 };
+    v.truth.split = 0.5;
+    v.truth.flip = -1;
+    v.eye.ev100 = v.eye.target_ev100 = NAN;
+    v.eye.exposure = 1;
+    navigation_init(&v.navigation);
+    ag_status status = create_parts(&v);
+    if (!status)
+        run(&v);
+    if (!status)
+        status = v.failed;
+    if (v.frame_count) {
+        qsort(v.frame_ms, v.frame_count, sizeof *v.frame_ms, by_time);
+        v.report->median_frame_ms = v.frame_ms[v.frame_count / 2];
+        v.report->frames = v.frame_count;
+    }
+    destroy_parts(&v);
+    return status;
+}
