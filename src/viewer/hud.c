@@ -190,10 +190,14 @@ static void set_place(ag_layer *layer, place which, panel_room room)
                                                                                    : down - margin);
 }
 
-uint32_t hud_compose(hud *h, const hud_state *state, panel_room room, ag_layer *layers)
+uint32_t hud_compose(hud *h, const hud_state *state, panel_room window, ag_layer *layers)
 {
     uint32_t used = 0;
     rows r;
+    panel_room room = window;
+    uint32_t margins = (uint32_t)(2 * MARGIN * (room.scale > 0 ? room.scale : 1));
+    room.width -= room.width > margins ? margins : 0;
+    room.height -= room.height > margins ? margins : 0;
     for (int i = 0; i < HUD_LAYERS; i++) {
         fill(&r, (place)i, state);
         // What cannot be shown for want of memory stays as it was.
@@ -204,7 +208,7 @@ uint32_t hud_compose(hud *h, const hud_state *state, panel_room room, ag_layer *
             continue;
         const uint64_t owner = (uint64_t)(i + 1) << 48;
         layers[used] = (ag_layer) { .image = image, .version = owner + panel_revision(h->panels[i]) };
-        set_place(&layers[used++], (place)i, room);
+        set_place(&layers[used++], (place)i, window);
     }
     return used;
 }

@@ -227,6 +227,7 @@ void picture_begin(viewer *v)
         v->meters = false;
     }
     put_truth(v, &o->show, o->layers);
+    o->show.layer_count += picking_marks(v, &o->show, o->layers + o->show.layer_count);
     put_words(v, &o->show, o->layers);
     // Before the first frame, which may take long, it is said that it will come.
     v->picture_stale = v->document.scene && v->first;

@@ -74,7 +74,7 @@ static void move(viewer *v, const double at[2])
     }
     p->from[0] = at[0];
     p->from[1] = at[1];
-    if (p->drag != DRAG_SPLIT) {
+    if (p->drag != DRAG_SPLIT && p->drag != DRAG_LIGHT) {
         v->moved = v->now;
         viewer_redraw(v);
     }

@@ -75,6 +75,13 @@ typedef struct selection {
     bool hovers;     // only lies under the pointer
 } selection;
 
+// What is to become of it, as soon as nobody reads the scene.
+typedef struct change {
+    bool wanted;
+    double strength, size; // steps: intensity or roughness, radius or metalness
+    float move[3];         // m
+} change;
+
 typedef struct message {
     char text[4 * HUD_TEXT_MAX];
     bool alarm;
@@ -96,9 +103,11 @@ typedef struct viewer {
     pointing pointing;
     truth truth;
     selection picked, hovered;
+    change change; // of what is picked
     message message;
     hud_state shown;
     ag_image *white; // a pixel
+    ag_image *ring;  // the mark of a light
     double started, now;
 
     bool quits;
@@ -172,6 +181,10 @@ void picking_next_light(viewer *v);
 void picking_strengthen(viewer *v, double steps); // intensity, roughness
 void picking_enlarge(viewer *v, double steps);    // radius, metalness
 void picking_drag(viewer *v, const double from[2], const double to[2]);
+void picking_step(viewer *v); // makes the changes
 void picking_describe(const viewer *v, hud_state *shown);
+
+// The marks of what is picked, one layer at most.
+uint32_t picking_marks(const viewer *v, const ag_show_options *show, ag_layer *layers);
 
 #endif

@@ -1,4 +1,5 @@
 // The viewer: its life from the first pixel to the last.
+#include "canvas.h"
 #include "state.h"
 
 #include <math.h>
@@ -79,6 +80,26 @@ static ag_status no_memory(const viewer *v)
     return AG_ERROR_MEMORY;
 }
 
+// A bright ring within a dark one: it shows on anything.
+static ag_status create_ring(viewer *v)
+{
+    enum { SIZE = 28 };
+    static uint8_t pixels[SIZE][SIZE][4];
+    const canvas c = { pixels[0][0], SIZE, SIZE };
+    const ag_image_desc desc = { SIZE, SIZE, AG_FORMAT_RGBA8, pixels };
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            double r = hypot(x + 0.5 - SIZE / 2, y + 0.5 - SIZE / 2);
+            double bright = 1 - fabs(r - 10), dark = 1.5 - fabs(r - 10) / 2;
+            double cover = dark < 0 ? 0 : dark < 1 ? dark : 1;
+            double white = bright < 0 ? 0 : bright;
+            uint8_t level = (uint8_t)(255 * white);
+            canvas_fill(&c, (box) { (float)x, (float)y, 1, 1 }, 0,
+                        (color) { level, level, level, (uint8_t)(160 * cover + 95 * white) });
+        }
+    return ag_image_create(v->setup->log, &desc, &v->ring);
+}
+
 static ag_status create_parts(viewer *v)
 {
     const viewer_setup *setup = v->setup;
@@ -99,7 +120,8 @@ static ag_status create_parts(viewer *v)
         return no_memory(v);
     const uint8_t white[4] = { 255, 255, 255, 255 };
     const ag_image_desc pixel = { 1, 1, AG_FORMAT_RGBA8, white };
-    return ag_image_create(setup->log, &pixel, &v->white);
+    status = ag_image_create(setup->log, &pixel, &v->white);
+    return status ? status : create_ring(v);
 }
 
 // The window goes at once; then everybody is stopped, and at last what they read is freed.
@@ -119,6 +141,8 @@ static void destroy_parts(viewer *v)
     ag_image_destroy(v->truth.picture);
     ag_image_destroy(v->truth.beside);
     ag_image_destroy(v->white);
+    ag_image_destroy(v->ring);
+    ag_image_destroy(v->saved);
     screen_destroy(v->screen);
     free(v->frame_ms);
 }
@@ -152,6 +176,7 @@ static void run(viewer *v)
         actions_collect(v);
         picture_collect(v);
         pointer_step(v);
+        picking_step(v);
         picture_follow_truth(v);
         picture_begin(v);
         if (!v->quits)
