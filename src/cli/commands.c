@@ -7,8 +7,8 @@
 #include <string.h>
 
 static const command *const list[] = {
-    &command_render, &command_reference, &command_compare, &command_validate, &command_convert,
-    &command_info,   &command_devices,   &command_demo,    &command_help,
+    &command_view,    &command_render, &command_reference, &command_compare, &command_validate,
+    &command_convert, &command_info,   &command_devices,   &command_demo,    &command_help,
 };
 
 const command *command_at(size_t index)

@@ -25,7 +25,7 @@ typedef struct command {
 } command;
 
 extern const command command_render, command_reference, command_compare, command_validate,
-    command_convert, command_info, command_devices, command_demo, command_help;
+    command_view, command_convert, command_info, command_devices, command_demo, command_help;
 
 // Command `index`, NULL past the last.
 const command *command_at(size_t index);

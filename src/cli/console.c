@@ -30,6 +30,14 @@ void console_allow_bar(console *c)
     c->bar = isatty(STDERR_FILENO) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
+void console_relay(console *c, const ag_log *log, const ag_progress *progress)
+{
+    pthread_mutex_lock(&c->lock);
+    c->heard_by = *log;
+    c->followed_by = *progress;
+    pthread_mutex_unlock(&c->lock);
+}
+
 static void wipe(console *c)
 {
     if (c->bar_drawn)
@@ -73,6 +81,8 @@ static void write_sentence(void *user, ag_log_level level, const char *text)
     pthread_mutex_lock(&c->lock);
     if (c->keeping)
         keep(c, level, text);
+    else if (c->heard_by.write)
+        c->heard_by.write(c->heard_by.user, level, text);
     else if (level <= c->level)
         show(c, level, text);
     pthread_mutex_unlock(&c->lock);
@@ -129,6 +139,9 @@ void console_stage(console *c, const char *stage, double fraction)
 
 static bool update(void *user, const char *stage, double fraction)
 {
+    const console *c = user;
+    if (c->followed_by.update)
+        return c->followed_by.update(c->followed_by.user, stage, fraction);
     console_stage(user, stage, fraction);
     return true;
 }

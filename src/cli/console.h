@@ -21,7 +21,9 @@ typedef struct console {
     char stage[24];       // what the bar shows
     char detail[80];
     int percent;
-    bool keeping; // keep sentences instead of showing them
+    bool keeping;    // keep sentences instead of showing them
+    ag_log heard_by; // write NULL: nobody else; borrowed
+    ag_progress followed_by;
     sentence *kept;
     size_t kept_count, kept_capacity;
     size_t kept_lost; // no memory, or more than anybody reads
@@ -30,6 +32,9 @@ typedef struct console {
 // `keeping`: until console_replay.  Finish with console_finish.
 void console_init(console *console, ag_log_level level, bool keeping);
 void console_finish(console *console);
+
+// Hand on to others what is said and how far it is, from now on, instead of showing it.
+void console_relay(console *console, const ag_log *log, const ag_progress *progress);
 
 // Show a progress bar from now on if standard error is a terminal.
 void console_allow_bar(console *console);

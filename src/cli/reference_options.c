@@ -114,5 +114,5 @@ bool reference_request_parse(reference_request *r, int argc, char **argv, bool *
     if (!options_parse(&set, argc, argv))
         return false;
     *help = set.help;
-    return set.help || (shot_request_settle(&r->shot, "reference") && sound(r));
+    return set.help || (shot_request_settle(&r->shot, "reference", true) && sound(r));
 }

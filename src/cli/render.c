@@ -181,7 +181,7 @@ static bool parse(shot_request *request, int argc, char **argv, bool *help)
     if (!options_parse(&set, argc, argv))
         return false;
     *help = set.help;
-    return set.help || shot_request_settle(request, "render");
+    return set.help || shot_request_settle(request, "render", true);
 }
 
 static exit_code run(int argc, char **argv)

@@ -192,13 +192,13 @@ shot_request shot_request_default(void)
     };
 }
 
-bool shot_request_settle(shot_request *r, const char *command)
+bool shot_request_settle(shot_request *r, const char *command, bool writes)
 {
-    if (!r->input || !r->output) {
+    if (!r->input || (writes && !r->output)) {
         fprintf(stderr,
                 r->input ? "argand: %s: where should the picture go? Add: -o picture.png\n"
-                         : "argand: %s: which file? Try: argand %s model.glb -o picture.png\n",
-                command, command);
+                         : "argand: %s: which file? Try: argand %s model.glb%s\n",
+                command, command, writes ? " -o picture.png" : "");
         return false;
     }
     if (r->ev100_given)

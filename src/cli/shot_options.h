@@ -50,7 +50,7 @@ shot_request shot_request_default(void);
 
 // After parsing: fill in what follows from what was given.  False after one sentence where
 // it makes no sense, or where input or output is missing.
-bool shot_request_settle(shot_request *request, const char *command);
+bool shot_request_settle(shot_request *request, const char *command, bool writes);
 
 // The most talkative level that is wanted.
 ag_log_level shot_log_level(const shot_request *request);

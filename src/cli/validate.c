@@ -59,7 +59,7 @@ static bool settle(validate_request *r)
         return refuse("where should the report go? Add: -o report");
     for (size_t i = 0; i < r->count; i++) {
         r->shot.input = r->inputs[i];
-        if (!shot_request_settle(&r->shot, "validate"))
+        if (!shot_request_settle(&r->shot, "validate", true))
             return false;
     }
     return true;

@@ -21,8 +21,9 @@ typedef struct view {
 #define FIELD(member) offsetof(view_request, member)
 
 static const option view_options[] = {
-    { "--frames", NULL, "N", "100", "draw N pictures as fast as they come, and say how long they took",
-      FIELD(frames), value_count, NULL, 0 },
+    { "--frames", NULL, "N", "100",
+      "draw N pictures as fast as they come, and say how long they took", FIELD(frames),
+      value_whole, NULL, 0 },
     { "--exit", NULL, NULL, "", "close the window after --frames", FIELD(exits), NULL, NULL, 0 },
     { 0 },
 };
@@ -34,7 +35,7 @@ static ag_status open_document(void *user, const char *input, bool draft, const 
     view *v = user;
     shot_request request = v->request->shot;
     request.input = input;
-    request.draft = draft;
+    (void)draft;
     if (strcmp(input, v->request->shot.input) != 0)
         request.camera = NULL; // that of another file
     console_relay(&v->hears, log, progress);
@@ -57,18 +58,93 @@ static void print_report(const view *v, const viewer_report *report)
                "\"scene_shown_ms\": %.1f}\n",
                report->frames, report->median_frame_ms, report->first_pixels_ms,
                report->scene_shown_ms);
-    else if (v->request->frames && !v->request->shot.quiet)
-        printf("%u frames, %.1f ms each (%.1f a second); first pixels after %.0f ms, the scene "
-               "after %.0f ms\n",
-               report->frames, report->median_frame_ms, 1e3 / report->median_frame_ms,
-               report->first_pixels_ms, report->scene_shown_ms);
+    else if (report->frames && !v->request->shot.quiet)
+        printf("%u frames, %.1f ms each; the first pixels after %.0f ms, the scene after %.0f ms\n",
+               report->frames, report->median_frame_ms, report->first_pixels_ms,
+               report->scene_shown_ms);
+}
+
+// False after one sentence; `*help` says that help was asked for instead.
+static bool parse(view_request *request, int argc, char **argv, bool *help)
+{
+    *request = (view_request) { .shot = shot_request_default() };
+    request->shot.size = (picture_size) { 1280, 720 };
+    option_set set = {
+        .command = "view",
+        .options = { view_options, shot_options, shot_device_options },
+        .fields = request,
+        .operands = &request->shot.input,
+        .operand_capacity = 1,
+    };
+    if (!options_parse(&set, argc, argv))
+        return false;
+    *help = set.help;
+    return set.help || shot_request_settle(&request->shot, "view", false);
+}
+
+static ag_status look(view *v)
+{
+    const view_request *r = v->request;
+    const ag_log log = console_log(&v->said);
+    const viewer_setup setup = {
+        .open = open_document,
+        .user = v,
+        .input = r->shot.input,
+        .log = &log,
+        .level = shot_log_level(&r->shot),
+        .device = r->shot.device,
+        .validate = r->shot.validate,
+        .width = r->shot.size.width,
+        .height = r->shot.size.height,
+        .frames = r->frames,
+        .exits = r->exits,
+    };
+    viewer_report report;
+    ag_status status = viewer_run(&setup, &report);
+    if (!status)
+        print_report(v, &report);
+    if (status || !r->shot.validate || !report.validation_messages)
+        return status;
+    console_say(&v->said, AG_LOG_ERROR, "The validation layer gave %u message%s",
+                report.validation_messages, report.validation_messages == 1 ? "" : "s");
+    return AG_ERROR_DEVICE;
 }
 
 static exit_code run(int argc, char **argv)
 {
-    const option *const tables[] = { view_options, shot_options, shot_device_options, NULL };
-    (void)tables;
-    (void)argc;
-    (void)argv;
-    return EXIT_FAILED;
+    view_request request;
+    bool help;
+    if (!parse(&request, argc, argv, &help))
+        return EXIT_USAGE;
+    if (help) {
+        help_command(&command_view);
+        return EXIT_DONE;
+    }
+    view v = { .request = &request };
+    console_init(&v.said, shot_log_level(&request.shot), false);
+    console_init(&v.hears, shot_log_level(&request.shot), false);
+    ag_status status = look(&v);
+    console_finish(&v.hears);
+    console_finish(&v.said);
+    return status ? EXIT_FAILED : EXIT_DONE;
 }
+
+const command command_view = {
+    .name = "view",
+    .operands = "FILE|demo:NAME",
+    .about = "look at a scene in a window, change its lights, compare it with its ground truth",
+    .lesson =
+        "The picture is that of `argand render` with the same options; --size is the window's.\n"
+        "Drag to turn, press ? for all keys; R traces the paths of light beside the picture.\n"
+        "The file is read again when it changes, and another one when it is dropped on the\n"
+        "window.  What was changed is saved as .glb by F5, in the folder that argand runs in.\n",
+    .options = { view_options, shot_options, shot_device_options },
+    .more = lights_lesson,
+    .examples = "  argand view helmet.glb\n"
+                "      The whole model in the studio.\n"
+                "  argand view room.glb --camera 0 --exposure auto\n"
+                "      From the file's own camera, as bright as an eye would have it.\n"
+                "  argand view demo:sphere-lights --frames 100 --exit\n"
+                "      How long a frame takes here.\n",
+    .run = run,
+};

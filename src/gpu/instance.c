@@ -40,9 +40,13 @@ static uint32_t surface_extensions(VkExtensionProperties all[EXTENSIONS_MAX],
     VkResult result = vkEnumerateInstanceExtensionProperties(NULL, &count, all);
     if (result != VK_SUCCESS && result != VK_INCOMPLETE)
         return 0;
-    for (uint32_t i = 0; i < count; i++)
-        if (ends_with(all[i].extensionName, "_surface"))
-            names[found++] = all[i].extensionName;
+    // Without this folder there is no Wayland, and a layer of Mesa's would complain.
+    bool wayland = getenv("XDG_RUNTIME_DIR");
+    for (uint32_t i = 0; i < count; i++) {
+        const char *name = all[i].extensionName;
+        if (ends_with(name, "_surface") && (wayland || !strstr(name, "wayland")))
+            names[found++] = name;
+    }
     return found;
 }
 

@@ -37,8 +37,8 @@ static ag_status save_picture(void *context, worker *self)
 static ag_status save_scene(void *context, worker *self)
 {
     viewer *v = context;
-    const ag_log log = worker_log(self, v->setup->level);
-    return ag_scene_save(v->document.scene, v->save_path, &log);
+    (void)self; // the scene has its own log
+    return ag_scene_save(v->document.scene, v->save_path);
 }
 
 static bool can_save(viewer *v, const char *ending)
@@ -145,8 +145,8 @@ void actions_describe(const viewer *v, hud_state *s)
 {
     const eye *e = &v->eye;
     if (e->automatic)
-        snprintf(s->exposure, sizeof s->exposure, "auto, %s %+.2f EV", meter_names[e->metering.meter],
-                 (double)e->metering.compensation_ev);
+        snprintf(s->exposure, sizeof s->exposure, "auto, %s %+.2f EV",
+                 meter_names[e->metering.meter], (double)e->metering.compensation_ev);
     else
         snprintf(s->exposure, sizeof s->exposure, "held, × %.4g", (double)e->exposure);
     snprintf(s->look, sizeof s->look, "%s", curve_names[v->document.look.tonemap]);
@@ -216,9 +216,7 @@ static void look_at_scene(viewer *v, action a)
     case ACTION_RIGHT:
     case ACTION_LEFT:
     case ACTION_TOP:
-    case ACTION_BOTTOM:
-        navigation_go_side(n, (navigation_side)(a - ACTION_FRONT));
-        break;
+    case ACTION_BOTTOM: navigation_go_side(n, (navigation_side)(a - ACTION_FRONT)); break;
     default: navigation_set_orthographic(n, !n->orthographic); break;
     }
     viewer_redraw(v);
@@ -235,7 +233,7 @@ static void change_thing(viewer *v, action a)
 
 static void toggle_bloom(viewer *v)
 {
-    float *bloom = &v->document.look.bloom;
+    float *bloom = &v->document.look.exposure;
     *bloom = *bloom > 0 ? 0 : 0.05f;
     viewer_say(v, false, *bloom > 0 ? "bloom: %.0f %% of the light" : "bloom: off",
                100 * (double)*bloom);

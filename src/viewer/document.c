@@ -57,11 +57,10 @@ void document_load(viewer *v, const char *input, bool keeps_view)
         snprintf(l->input, sizeof l->input, "%s", input);
     v->watching = (watching) { .next = v->now + watch_s };
     l->draft = false;
-    if (is_file(l->input) &&
-        look_at(l->input, &v->watching.changed_ns, &v->watching.size)) {
+    if (is_file(l->input) && look_at(l->input, &v->watching.changed_ns, &v->watching.size)) {
         const char *end = strrchr(l->input, '.');
-        l->draft = !keeps_view && (v->watching.size >= DRAFT_BYTES ||
-                                   (end && strcmp(end, ".gltf") == 0));
+        l->draft =
+            !keeps_view && (v->watching.size >= DRAFT_BYTES || (end && strcmp(end, ".gltf") == 0));
     }
     begin(v);
 }
@@ -72,7 +71,7 @@ static void set_title(viewer *v)
 {
     char title[HUD_TEXT_MAX + 16];
     const char *input = v->loading.input, *name = strrchr(input, '/');
-    snprintf(v->shown.file, sizeof v->shown.file, "%s", name ? name + 1 : input);
+    snprintf(v->shown.file, sizeof v->shown.file, "%.255s", name ? name + 1 : input);
     snprintf(title, sizeof title, "%s - argand", v->shown.file);
     screen_set_title(v->screen, title);
 }

@@ -66,12 +66,12 @@ __attribute__((format(printf, 3, 4))) static void value(rows *r, const char *nam
 {
     if (r->count == ROWS_MAX)
         return;
-    char *text = r->values[r->count];
+    char *shown = r->values[r->count];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, VALUE_MAX, format, args);
+    vsnprintf(shown, VALUE_MAX, format, args);
     va_end(args);
-    put(r, (panel_row) { PANEL_VALUE, name, text, 0 });
+    put(r, (panel_row) { PANEL_VALUE, name, shown, 0 });
 }
 
 // 12 345 678
@@ -125,7 +125,7 @@ static void put_look(rows *r, const hud_state *s)
 static void put_truth(rows *r, const hud_state *s)
 {
     put(r, (panel_row) { PANEL_SECTION, "Ground truth", NULL, 0 });
-    count(r, "samples a pixel", s->samples);
+    count(r, "samples", s->samples);
     if (s->samples > 1)
         value(r, "noise", "%.1f %%", 100 * (double)s->noise);
     if (s->flip >= 0)
@@ -186,8 +186,9 @@ static void set_place(ag_layer *layer, place which, panel_room room)
     float across = (float)room.width - width, down = (float)room.height - height;
     bool middle = which == PLACE_NEWS || which == PLACE_HELP;
     layer->x = (float)(int)(middle ? across / 2 : margin);
-    layer->y = (float)(int)(which == PLACE_HELP ? down / 2 : which == PLACE_STATUS ? margin
-                                                                                   : down - margin);
+    layer->y = (float)(int)(which == PLACE_HELP     ? down / 2
+                            : which == PLACE_STATUS ? margin
+                                                    : down - margin);
 }
 
 uint32_t hud_compose(hud *h, const hud_state *state, panel_room window, ag_layer *layers)
@@ -207,7 +208,8 @@ uint32_t hud_compose(hud *h, const hud_state *state, panel_room window, ag_layer
         if (!image)
             continue;
         const uint64_t owner = (uint64_t)(i + 1) << 48;
-        layers[used] = (ag_layer) { .image = image, .version = owner + panel_revision(h->panels[i]) };
+        layers[used] =
+            (ag_layer) { .image = image, .version = owner + panel_revision(h->panels[i]) };
         set_place(&layers[used++], (place)i, window);
     }
     return used;

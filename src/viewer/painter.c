@@ -49,14 +49,19 @@ static ag_status close_job(void *context, worker *self)
     return AG_OK;
 }
 
-void painter_destroy(painter *p)
+void painter_close(painter *p)
 {
-    if (!p)
-        return;
     worker_stop(p->worker);
     worker_wait(p->worker);
     worker_start(p->worker, close_job, p);
     worker_wait(p->worker);
+}
+
+void painter_destroy(painter *p)
+{
+    if (!p)
+        return;
+    painter_close(p);
     worker_destroy(p->worker);
     ag_image_destroy(p->result.kept);
     free(p);
@@ -69,10 +74,9 @@ worker *painter_worker(painter *p)
 
 static ag_status open_device(painter *p)
 {
-    const ag_device_desc device = { .log = &p->log,
-                                    .select = p->desc.device,
-                                    .validate = p->desc.validate,
-                                    .windows = true };
+    const ag_device_desc device = {
+        .log = &p->log, .select = p->desc.device, .validate = p->desc.validate, .windows = true
+    };
     const ag_window_desc window = { .create_surface = screen_surface, .user = p->screen };
     ag_status status = ag_device_create(&device, &p->device);
     if (!status)
@@ -91,11 +95,11 @@ static ag_status paint(painter *p)
     if (!status && o->adapts)
         o->options.exposure = ag_exposure_from_ev100(result->ev100);
     if (!status)
-        status = ag_window_show(p->window, o->scene, &o->camera, &o->options, &o->show,
-                                &result->stats);
+        status =
+            ag_window_show(p->window, o->scene, &o->camera, &o->options, &o->show, &result->stats);
     if (!status && o->scene && o->keeps)
-        status = ag_renderer_render(p->renderer, o->scene, &o->camera, &o->options, &result->kept,
-                                    NULL);
+        status =
+            ag_renderer_render(p->renderer, o->scene, &o->camera, &o->options, &result->kept, NULL);
     result->has_picture = !status && o->scene;
     return status;
 }

@@ -6,6 +6,7 @@
 #include "screen.h"
 #include "worker.h"
 
+#include "/tmp/compat.h"
 #include <argand/argand.h>
 
 typedef struct painter_desc {
@@ -22,8 +23,8 @@ typedef struct paint_order {
     ag_show_options show; // `layers` are those above
     bool meters;          // also the light of the view
     ag_metering metering;
-    bool adapts;          // and is exposed as the meter says
-    bool keeps;           // also brings the picture to the host
+    bool adapts; // and is exposed as the meter says
+    bool keeps;  // also brings the picture to the host
 } paint_order;
 
 typedef struct paint_result {
@@ -38,6 +39,7 @@ typedef struct painter painter;
 
 // The device is opened with the first order.  NULL: no thread, no memory.
 painter *painter_create(screen *s, const painter_desc *desc);
+void painter_close(painter *p);   // the device, after the order that is at work
 void painter_destroy(painter *p); // NULL is allowed
 
 worker *painter_worker(painter *p);

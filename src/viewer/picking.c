@@ -192,7 +192,7 @@ static bool point_in_plane(const viewer *v, const float place[3], const double a
 
 void picking_drag(viewer *v, const double from[2], const double to[2])
 {
-    float before[3], after[3];
+    float before[3] = { 0 }, after[3] = { 0 };
     if (!point_in_plane(v, v->picked.place, from, before) ||
         !point_in_plane(v, v->picked.place, to, after))
         return;
@@ -204,11 +204,16 @@ void picking_drag(viewer *v, const double from[2], const double to[2])
 // ---- Words and marks -----------------------------------------------------------
 
 static const char *const light_names[] = {
-    [AG_LIGHT_POINT] = "point",         [AG_LIGHT_SPOT] = "spot",
-    [AG_LIGHT_DIRECTIONAL] = "directional", [AG_LIGHT_SUN] = "sun",
-    [AG_LIGHT_SPHERE] = "sphere",       [AG_LIGHT_DISK] = "disk",
-    [AG_LIGHT_RECT] = "rectangle",      [AG_LIGHT_TUBE] = "tube",
-    [AG_LIGHT_AMBIENT] = "ambient",     [AG_LIGHT_HEMISPHERIC] = "hemispheric",
+    [AG_LIGHT_POINT] = "point",
+    [AG_LIGHT_SPOT] = "spot",
+    [AG_LIGHT_DIRECTIONAL] = "directional",
+    [AG_LIGHT_SUN] = "sun",
+    [AG_LIGHT_SPHERE] = "sphere",
+    [AG_LIGHT_DISK] = "disk",
+    [AG_LIGHT_RECT] = "rectangle",
+    [AG_LIGHT_TUBE] = "tube",
+    [AG_LIGHT_AMBIENT] = "ambient",
+    [AG_LIGHT_HEMISPHERIC] = "hemispheric",
     [AG_LIGHT_HARMONICS] = "harmonics",
 };
 

@@ -127,7 +127,8 @@ static double choose_scale(const viewer *v, uint32_t width, uint32_t height)
     double full_ms = v->ms_per_mpx * width * height * 1e-6;
     size_t i = 0;
     if (v->now - v->moved < rest_s && v->setup->frames == 0)
-        while (i + 1 < sizeof scales / sizeof *scales && full_ms * scales[i] * scales[i] > budget_ms)
+        while (i + 1 < sizeof scales / sizeof *scales &&
+               full_ms * scales[i] * scales[i] > budget_ms)
             i++;
     return scales[i];
 }
@@ -171,7 +172,7 @@ static void put_stage(viewer *v)
     s->stage[0] = 0;
     if (worker_is_busy(v->loading.worker)) {
         worker_stage at = worker_at(v->loading.worker);
-        snprintf(s->stage, sizeof s->stage, "%s %s", at.name[0] ? at.name : "load",
+        snprintf(s->stage, sizeof s->stage, "%s %.200s", at.name[0] ? at.name : "load",
                  v->loading.input);
         s->fraction = at.fraction;
     } else if (v->first && v->document.scene) {

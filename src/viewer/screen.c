@@ -68,9 +68,9 @@ static void push(screen *s, screen_event event)
         s->events[(s->first + s->count++) % EVENTS_MAX] = event;
 }
 
-static uint32_t named_key(int key)
+static uint32_t named_key(int code)
 {
-    switch (key) {
+    switch (code) {
     case GLFW_KEY_ESCAPE: return KEY_ESCAPE;
     case GLFW_KEY_ENTER:
     case GLFW_KEY_KP_ENTER: return KEY_ENTER;
@@ -82,7 +82,7 @@ static uint32_t named_key(int key)
     case GLFW_KEY_DOWN: return KEY_DOWN;
     default: break;
     }
-    return key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12 ? KEY_F1 + (uint32_t)(key - GLFW_KEY_F1) : 0;
+    return code >= GLFW_KEY_F1 && code <= GLFW_KEY_F12 ? KEY_F1 + (uint32_t)(code - GLFW_KEY_F1) : 0;
 }
 
 static uint32_t capital(uint32_t c)
@@ -91,14 +91,14 @@ static uint32_t capital(uint32_t c)
 }
 
 // Keys with a name, and those that write nothing because Ctrl or Alt is held.
-static void on_key(GLFWwindow *window, int key, int scancode, int action, int mods)
+static void on_key(GLFWwindow *window, int code, int scancode, int how, int mods)
 {
     screen *s = glfwGetWindowUserPointer(window);
-    if (action == GLFW_RELEASE)
+    if (how == GLFW_RELEASE)
         return;
-    uint32_t pressed = named_key(key);
+    uint32_t pressed = named_key(code);
     if (!pressed && mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) {
-        const char *name = glfwGetKeyName(key, scancode);
+        const char *name = glfwGetKeyName(code, scancode);
         pressed = name && name[0] && !name[1] ? capital((unsigned char)name[0]) : 0;
     }
     if (pressed)
@@ -114,7 +114,7 @@ static void on_character(GLFWwindow *window, unsigned character)
     push(s, (screen_event) { SCREEN_KEY, .key = capital(character), .modifiers = modifiers });
 }
 
-static void on_button(GLFWwindow *window, int button, int action, int mods)
+static void on_button(GLFWwindow *window, int button, int how, int mods)
 {
     screen *s = glfwGetWindowUserPointer(window);
     static const screen_button names[] = { [GLFW_MOUSE_BUTTON_LEFT] = SCREEN_LEFT,
@@ -123,7 +123,7 @@ static void on_button(GLFWwindow *window, int button, int action, int mods)
     if (button > GLFW_MOUSE_BUTTON_MIDDLE)
         return;
     screen_event event = { SCREEN_BUTTON, .button = names[button], .modifiers = modifiers_of(mods),
-                           .down = action == GLFW_PRESS };
+                           .down = how == GLFW_PRESS };
     double x, y;
     glfwGetCursorPos(window, &x, &y);
     to_px(s, x, y, event.at);
@@ -142,8 +142,8 @@ static void on_wheel(GLFWwindow *window, double x, double y)
 {
     screen *s = glfwGetWindowUserPointer(window);
     // Some systems turn a wheel with Shift sideways.
-    push(s, (screen_event) { SCREEN_WHEEL, .modifiers = modifiers_now(s),
-                             .steps = y != 0 ? y : x });
+    push(s,
+         (screen_event) { SCREEN_WHEEL, .modifiers = modifiers_now(s), .steps = y != 0 ? y : x });
 }
 
 static void on_drop(GLFWwindow *window, int count, const char **paths)

@@ -56,10 +56,10 @@ typedef struct pointing {
 } pointing;
 
 typedef struct truth {
-    bool wanted, stale;      // stale: what is traced is no longer what is seen
-    double split;            // where the line is, 0 to 1 of the width
-    ag_image *picture;       // traced; NULL: none yet
-    ag_image *beside;        // the real-time picture; NULL: to be made
+    bool wanted, stale; // stale: what is traced is no longer what is seen
+    double split;       // where the line is, 0 to 1 of the width
+    ag_image *picture;  // traced; NULL: none yet
+    ag_image *beside;   // the real-time picture; NULL: to be made
     uint64_t version;
     uint32_t samples;
     float noise, flip; // flip below 0: not known
@@ -69,10 +69,10 @@ typedef struct truth {
 // What is picked.
 typedef struct selection {
     enum { PICK_NOTHING = 0, PICK_LIGHT, PICK_MATERIAL } kind;
-    size_t index;    // of the light or the material
-    float place[3];  // m, where it was picked
-    float radius;    // m, to frame it
-    bool hovers;     // only lies under the pointer
+    size_t index;   // of the light or the material
+    float place[3]; // m, where it was picked
+    float radius;   // m, to frame it
+    bool hovers;    // only lies under the pointer
 } selection;
 
 // What is to become of it, as soon as nobody reads the scene.
@@ -121,7 +121,7 @@ typedef struct viewer {
     double stepped;     // s, of the navigation
     double *frame_ms;   // of the frames that were asked for
     uint32_t frame_count;
-    uint32_t camera; // of the file, the next one
+    uint32_t camera;               // of the file, the next one
     paint_order ordered;           // last
     ag_camera_desc ordered_camera; // of the last picture
     double painted;                // s, when it came
@@ -157,7 +157,7 @@ void document_watch(viewer *v);   // reload a file that has changed
 // ---- actions.c -----------------------------------------------------------------
 
 void actions_do(viewer *v, action a);
-void actions_collect(viewer *v); // what was saved beside
+void actions_collect(viewer *v);                 // what was saved beside
 void actions_keep(viewer *v, ag_image *picture); // takes what the painter brought back
 void actions_describe(const viewer *v, hud_state *s);
 
@@ -169,7 +169,7 @@ void pointer_step(viewer *v); // of flying, and what the pointer rests on
 // ---- picture.c -----------------------------------------------------------------
 
 void picture_collect(viewer *v);
-void picture_begin(viewer *v);       // when the painter is idle and something is stale
+void picture_begin(viewer *v);        // when the painter is idle and something is stale
 void picture_follow_truth(viewer *v); // keep the tracer at work
 double picture_next(const viewer *v); // s to wait for the next event; below 0: without end
 

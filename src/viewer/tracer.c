@@ -66,8 +66,7 @@ static ag_status look(tracer *t, bool coarse)
     if (t->reference && t->scene == o->scene)
         return ag_reference_restart(t->reference, &o->camera, &picture, NULL);
     tracer_forget(t);
-    ag_status status =
-        ag_reference_create(o->scene, &o->camera, &picture, NULL, &t->reference);
+    ag_status status = ag_reference_create(o->scene, &o->camera, &picture, NULL, &t->reference);
     t->scene = status ? NULL : o->scene;
     return status;
 }

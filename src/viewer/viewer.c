@@ -50,6 +50,7 @@ static void hear(viewer *v, worker *w)
         const ag_log *log = v->setup->log;
         if (log && log->write)
             log->write(log->user, level, sentence);
+        v->report->validation_messages += strncmp(sentence, "validation: ", 12) == 0;
         if (level > AG_LOG_WARNING)
             continue;
         snprintf(v->message.text, sizeof v->message.text, "%s", sentence);
@@ -108,9 +109,9 @@ static ag_status create_parts(viewer *v)
     if (status)
         return status;
     v->started = screen_time();
-    const painter_desc painter = { setup->device, setup->validate, setup->level };
+    const painter_desc device = { setup->device, setup->validate, setup->level };
     v->hud = hud_create(setup->log);
-    v->painter = painter_create(v->screen, &painter);
+    v->painter = painter_create(v->screen, &device);
     v->tracer = tracer_create(setup->level);
     v->loading.worker = worker_create(screen_wake);
     v->loading.setup = setup;
@@ -201,10 +202,12 @@ ag_status viewer_run(const viewer_setup *setup, viewer_report *report)
     v.eye.exposure = 1;
     navigation_init(&v.navigation);
     ag_status status = create_parts(&v);
-    if (!status)
+    if (!status) {
         run(&v);
-    if (!status)
+        painter_close(v.painter);
+        hear_all(&v);
         status = v.failed;
+    }
     if (v.frame_count) {
         qsort(v.frame_ms, v.frame_count, sizeof *v.frame_ms, by_time);
         v.report->median_frame_ms = v.frame_ms[v.frame_count / 2];

@@ -2,6 +2,7 @@
 #ifndef VIEWER_VIEWER_H
 #define VIEWER_VIEWER_H
 
+#include "/tmp/compat.h"
 #include <argand/argand.h>
 
 // What a file becomes.
