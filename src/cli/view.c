@@ -55,9 +55,9 @@ static void print_report(const view *v, const viewer_report *report)
 {
     if (v->request->shot.json)
         printf("{\"frames\": %u, \"median_frame_ms\": %.2f, \"first_pixels_ms\": %.1f, "
-               "\"scene_shown_ms\": %.1f}\n",
+               "\"scene_shown_ms\": %.1f, \"answer_frames\": %u}\n",
                report->frames, report->median_frame_ms, report->first_pixels_ms,
-               report->scene_shown_ms);
+               report->scene_shown_ms, report->answer_frames);
     else if (report->frames && !v->request->shot.quiet)
         printf("%u frames, %.1f ms each; the first pixels after %.0f ms, the scene after %.0f ms\n",
                report->frames, report->median_frame_ms, report->first_pixels_ms,

@@ -58,7 +58,7 @@ static void count_frame(viewer *v, const paint_result *result)
 {
     viewer_report *report = v->report;
     if (is_complete(v) && report->scene_shown_ms <= 0)
-        report->scene_shown_ms = (v->now - v->started) * 1e3;
+        report->scene_shown_ms = v->now * 1e3;
     if (!is_complete(v) || v->frame_count >= v->setup->frames)
         return;
     v->frame_ms[v->frame_count++] = result->ms;
@@ -101,13 +101,16 @@ void picture_collect(viewer *v)
     if (!painter_collect(v->painter, &status, &result))
         return;
     v->shown.device = painter_device(v->painter);
+    v->orders++;
+    if (v->answers && v->orders - v->asked > v->report->answer_frames)
+        v->report->answer_frames = v->orders - v->asked;
     if (status) {
         lose_device(v, status);
         return;
     }
     v->losses = 0;
     if (v->report->first_pixels_ms <= 0)
-        v->report->first_pixels_ms = (v->now - v->started) * 1e3;
+        v->report->first_pixels_ms = v->now * 1e3;
     if (!result.has_picture)
         return;
     if (v->ordered.meters)
@@ -234,6 +237,8 @@ void picture_begin(viewer *v)
     v->picture_stale = v->document.scene && v->first;
     v->first = false;
     v->layers_stale = false;
+    v->answers = v->asks && (draws || !v->picture_stale);
+    v->asks &= !v->answers;
     painter_begin(v->painter, o);
 }
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static const double click_px = 4, split_px = 8, rest_s = 0.06;
+static const double click_px = 4, split_px = 8, rest_s = 0.06, first_step_s = 1.0 / 60;
 
 static bool on_split(const viewer *v, const double at[2])
 {
@@ -137,11 +137,11 @@ static void hover(viewer *v)
 void pointer_step(viewer *v)
 {
     fly(v);
-    // What has just begun to move did not move while nothing happened.
-    if (v->moving)
-        navigation_step(&v->navigation, v->now - v->stepped);
-    v->stepped = v->now;
+    // What has just begun to move did not move while nothing happened; but something is seen of it.
     bool moves = navigation_moves(&v->navigation);
+    if (moves)
+        navigation_step(&v->navigation, v->moving ? v->now - v->stepped : first_step_s);
+    v->stepped = v->now;
     if (v->moving || moves) {
         v->moved = v->now;
         viewer_redraw(v);

@@ -82,7 +82,8 @@ static uint32_t named_key(int code)
     case GLFW_KEY_DOWN: return KEY_DOWN;
     default: break;
     }
-    return code >= GLFW_KEY_F1 && code <= GLFW_KEY_F12 ? KEY_F1 + (uint32_t)(code - GLFW_KEY_F1) : 0;
+    return code >= GLFW_KEY_F1 && code <= GLFW_KEY_F12 ? KEY_F1 + (uint32_t)(code - GLFW_KEY_F1)
+                                                       : 0;
 }
 
 static uint32_t capital(uint32_t c)

@@ -108,7 +108,7 @@ typedef struct viewer {
     hud_state shown;
     ag_image *white; // a pixel
     ag_image *ring;  // the mark of a light
-    double started, now;
+    double now;      // s, since the window was asked for
 
     bool quits;
     bool picture_stale; // the scene must be drawn again
@@ -125,6 +125,9 @@ typedef struct viewer {
     paint_order ordered;           // last
     ag_camera_desc ordered_camera; // of the last picture
     double painted;                // s, when it came
+    uint32_t orders;               // that are done
+    uint32_t asked;                // how many were, when the first unanswered input came
+    bool asks, answers;            // there is one; the order at work has it
     uint32_t losses;               // of the device, one after the other
     bool moving;                   // the navigation moves by itself
     double rests_at;               // s, when to look what the pointer is on; 0: no need

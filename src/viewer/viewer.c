@@ -108,7 +108,6 @@ static ag_status create_parts(viewer *v)
     ag_status status = screen_create(&log, "argand", setup->width, setup->height, &v->screen);
     if (status)
         return status;
-    v->started = screen_time();
     const painter_desc device = { setup->device, setup->validate, setup->level };
     v->hud = hud_create(setup->log);
     v->painter = painter_create(v->screen, &device);
@@ -152,6 +151,9 @@ static void handle_events(viewer *v)
 {
     screen_event event;
     while (screen_event_next(v->screen, &event)) {
+        if (!v->asks)
+            v->asked = v->orders;
+        v->asks = true;
         if (event.kind == SCREEN_KEY)
             actions_do(v, keys_action(event.key, event.modifiers));
         else if (event.kind == SCREEN_DROP && event.path)

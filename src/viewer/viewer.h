@@ -33,7 +33,9 @@ typedef struct viewer_setup {
 
 typedef struct viewer_report {
     uint32_t frames;
-    double first_pixels_ms, scene_shown_ms, median_frame_ms; // since viewer_run was called
+    double first_pixels_ms, scene_shown_ms,
+        median_frame_ms;    // the first two since the window was asked for
+    uint32_t answer_frames; // the most from an input to the picture that has it, that one included
     uint32_t validation_messages;
 } viewer_report;
 
