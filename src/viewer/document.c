@@ -56,12 +56,11 @@ void document_load(viewer *v, const char *input, bool keeps_view)
     if (input != l->input)
         snprintf(l->input, sizeof l->input, "%s", input);
     v->watching = (watching) { .next = v->now + watch_s };
-    l->draft = false;
-    if (is_file(l->input) && look_at(l->input, &v->watching.changed_ns, &v->watching.size)) {
-        const char *end = strrchr(l->input, '.');
-        l->draft =
-            !keeps_view && (v->watching.size >= DRAFT_BYTES || (end && strcmp(end, ".gltf") == 0));
-    }
+    watching *w = &v->watching;
+    w->gone = !look_at(l->input, &w->changed_ns, &w->size);
+    const char *end = strrchr(l->input, '.');
+    l->draft = !keeps_view && !w->gone &&
+               (w->size >= DRAFT_BYTES || (end && strcmp(end, ".gltf") == 0));
     begin(v);
 }
 
@@ -120,6 +119,10 @@ void document_collect(viewer *v)
     ag_status status;
     if (worker_collect(l->worker, &status)) {
         l->ready = !status;
+        if (status && v->setup->exits && !v->document.scene) {
+            v->failed = status; // nobody will ever see a frame
+            v->quits = true;
+        }
         v->layers_stale = true;
         if (l->next[0]) {
             char next[INPUT_MAX];

@@ -211,7 +211,7 @@ void picture_begin(viewer *v)
     uint32_t width, height;
     screen_size(v->screen, &width, &height);
     v->hidden = !width || !height;
-    if (worker_is_busy(painter_worker(v->painter)) || v->hidden)
+    if (v->quits || v->hidden || worker_is_busy(painter_worker(v->painter)))
         return;
     adapt(v);
     bool settles = v->rough && v->now - v->moved >= rest_s;
