@@ -52,7 +52,7 @@ static bool parse(shot_request *request, int argc, char **argv, bool *help)
     if (set.help)
         return true;
     if (request->input && request->output)
-        return shot_request_settle(request, "convert");
+        return shot_request_settle(request, "convert", true);
     fputs(request->input ? "argand: convert: where should the scene go? Add: -o scene.glb\n"
                          : "argand: convert: which file? Try: argand convert model.gltf -o "
                            "scene.glb\n",

@@ -71,7 +71,7 @@ static bool parse(view_request *request, int argc, char **argv, bool *help)
     request->shot.size = (picture_size) { 1280, 720 };
     option_set set = {
         .command = "view",
-        .options = { view_options, shot_options, shot_device_options },
+        .options = { view_options, shot_scene_options, shot_options, shot_device_options },
         .fields = request,
         .operands = &request->shot.input,
         .operand_capacity = 1,
@@ -138,7 +138,7 @@ const command command_view = {
         "Drag to turn, press ? for all keys; R traces the paths of light beside the picture.\n"
         "The file is read again when it changes, and another one when it is dropped on the\n"
         "window.  What was changed is saved as .glb by F5, in the folder that argand runs in.\n",
-    .options = { view_options, shot_options, shot_device_options },
+    .options = { view_options, shot_scene_options, shot_options, shot_device_options },
     .more = lights_lesson,
     .examples = "  argand view helmet.glb\n"
                 "      The whole model in the studio.\n"

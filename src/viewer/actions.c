@@ -233,7 +233,7 @@ static void change_thing(viewer *v, action a)
 
 static void toggle_bloom(viewer *v)
 {
-    float *bloom = &v->document.look.exposure;
+    float *bloom = &v->document.look.bloom;
     *bloom = *bloom > 0 ? 0 : 0.05f;
     viewer_say(v, false, *bloom > 0 ? "bloom: %.0f %% of the light" : "bloom: off",
                100 * (double)*bloom);

@@ -59,8 +59,8 @@ void document_load(viewer *v, const char *input, bool keeps_view)
     watching *w = &v->watching;
     w->gone = !look_at(l->input, &w->changed_ns, &w->size);
     const char *end = strrchr(l->input, '.');
-    l->draft = !keeps_view && !w->gone &&
-               (w->size >= DRAFT_BYTES || (end && strcmp(end, ".gltf") == 0));
+    l->draft =
+        !keeps_view && !w->gone && (w->size >= DRAFT_BYTES || (end && strcmp(end, ".gltf") == 0));
     begin(v);
 }
 

@@ -6,7 +6,6 @@
 #include "screen.h"
 #include "worker.h"
 
-#include "/tmp/compat.h"
 #include <argand/argand.h>
 
 typedef struct painter_desc {

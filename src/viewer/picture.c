@@ -77,6 +77,7 @@ static void take_times(viewer *v, const paint_result *result)
     v->shown.stats = result->stats;
     v->shown.width = width;
     v->shown.height = height;
+    v->layers_stale |= v->shown.status; // at rest it tells of this frame, too
     // Frames in which something was prepared tell nothing about the next one.
     if (result->stats.compile_ms + result->stats.upload_ms + result->stats.bake_ms < 5)
         v->ms_per_mpx = result->ms / mpx;

@@ -108,7 +108,8 @@ static ag_status create_parts(viewer *v)
     ag_status status = screen_create(&log, "argand", setup->width, setup->height, &v->screen);
     if (status)
         return status;
-    const painter_desc device = { setup->device, setup->validate, setup->level };
+    // Of each frame only what is wrong is worth a word.
+    const painter_desc device = { setup->device, setup->validate, AG_LOG_WARNING };
     v->hud = hud_create(setup->log);
     v->painter = painter_create(v->screen, &device);
     v->tracer = tracer_create(setup->level);

@@ -2,7 +2,6 @@
 #ifndef VIEWER_VIEWER_H
 #define VIEWER_VIEWER_H
 
-#include "/tmp/compat.h"
 #include <argand/argand.h>
 
 // What a file becomes.
