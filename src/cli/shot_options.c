@@ -89,8 +89,9 @@ const option shot_scene_options[] = {
 };
 
 const option shot_options[] = {
-    { "--size", NULL, "WxH", "1024x1024", "width and height in pixels (1024x1024; of view 1280x720)", FIELD(size),
-      value_size, NULL, 0 },
+    { "--size", NULL, "WxH", "1024x1024",
+      "width and height in pixels (1024x1024; of view 1280x720)", FIELD(size), value_size, NULL,
+      0 },
     { "--camera", NULL, "NAME|INDEX", "0", "a camera of the file; the first is 0", FIELD(camera),
       value_text, NULL, 0 },
     { "--orbit", NULL, "THETA,PHI,R", "35,70,auto",
