@@ -10,6 +10,8 @@ _argand() {
         words='render reference compare validate convert info devices demo help --version'
         ;;
     --tonemap) words='none reinhard aces aces-narkowicz neutral agx' ;;
+    --exposure) words='auto' ;;
+    --metering) words='average center spot' ;;
     --transfer) words='srgb gamma2.2' ;;
     --area-lights) words='exact ltc representative-point' ;;
     --aov) words='albedo normal depth direct indirect' ;;

@@ -29,7 +29,7 @@ typedef struct option {
 } option;
 
 // Tables of options, each ending with one without a name; the list of them ends with NULL.
-typedef const option *option_tables[5];
+typedef const option *option_tables[6];
 
 typedef struct option_set {
     const char *command; // for messages

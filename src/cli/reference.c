@@ -1,5 +1,6 @@
 // argand reference: the same picture, path traced.
 #include "commands.h"
+#include "expose.h"
 #include "output.h"
 #include "reference_report.h"
 #include "shot.h"
@@ -12,7 +13,6 @@ typedef struct work {
     ag_format format;
     shot shot;
     ag_image *picture;
-    float exposure;            // that it was made with
     ag_image *aovs[AOV_COUNT]; // those that are wanted
     reference_report report;   // and the reference itself
 } work;
@@ -26,7 +26,6 @@ static ag_status trace(work *w)
     if (status)
         return status;
     picture.parts = r->parts;
-    w->exposure = picture.exposure > 0 ? picture.exposure : ag_scene_exposure(w->shot.scene);
     ag_reference_options options = {
         .max_bounces = r->max_bounces,
         .direct_only = r->bounces_given && r->max_bounces == 0,
@@ -41,6 +40,10 @@ static ag_status trace(work *w)
         .seconds = (double)r->seconds,
         .noise = r->noise,
     };
+    status = expose(&w->shot, NULL, &camera, &options, &picture);
+    w->report.exposure = picture.exposure;
+    if (status)
+        return status;
     return tracing_run(&w->report.tracing, &w->console, w->shot.scene, &camera, &picture, &options,
                        &goal);
 }
@@ -82,8 +85,9 @@ static ag_status save(work *w)
     ag_image_layer layers[AOV_COUNT + 1];
     size_t count = list_layers(w, layers);
     const char *path = w->request->shot.output;
-    ag_status status = count > 1 ? output_save_layers(&w->console, layers, count, w->exposure, path)
-                                 : output_save(&w->console, w->picture, w->exposure, path);
+    ag_status status =
+        count > 1 ? output_save_layers(&w->console, layers, count, w->report.exposure, path)
+                  : output_save(&w->console, w->picture, w->report.exposure, path);
     w->report.encode_ms = now_ms() - start;
     return status;
 }
@@ -152,7 +156,7 @@ const command command_reference = {
         "samples a pixel, or at the first of --spp, --time and --noise that are given.\n"
         "Ctrl-C ends it too, and the picture is written with what has been gathered; a second\n"
         "one ends at once.  The same --seed gives the same bytes on any number of cores.\n",
-    .options = { reference_options, shot_scene_options, shot_options },
+    .options = { reference_options, shot_scene_options, shot_options, eye_options },
     .more = lights_lesson,
     .examples = "  argand reference helmet.glb -o helmet.png\n"
                 "      64 samples a pixel.\n"

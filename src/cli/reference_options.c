@@ -106,7 +106,7 @@ bool reference_request_parse(reference_request *r, int argc, char **argv, bool *
     *r = (reference_request) { .shot = shot_request_default() };
     option_set set = {
         .command = "reference",
-        .options = { reference_options, shot_scene_options, shot_options },
+        .options = { reference_options, shot_scene_options, shot_options, eye_options },
         .fields = r,
         .operands = &r->shot.input,
         .operand_capacity = 1,

@@ -1,6 +1,7 @@
 // What `argand reference` tells when it is done.
 #include "reference_report.h"
 
+#include "exposure_report.h"
 #include "json.h"
 #include "task.h"
 
@@ -31,6 +32,7 @@ static void print_json(const reference_report *r, const reference_request *reque
     json_text(&j, "output", request->shot.output);
     json_count(&j, "width", request->shot.size.width);
     json_count(&j, "height", request->shot.size.height);
+    report_exposure(&j, r->exposure);
     json_count(&j, "triangles", r->scene.triangles);
     json_count(&j, "instances", r->scene.instances);
     json_count(&j, "seed", request->seed);
@@ -46,6 +48,7 @@ static void print_json(const reference_report *r, const reference_request *reque
 
 void reference_report_print(const reference_report *r, const reference_request *request)
 {
+    char words[32];
     const shot_request *shot = &request->shot;
     const ag_reference_state *state = &r->tracing.state;
     if (shot->json)
@@ -56,5 +59,5 @@ void reference_report_print(const reference_report *r, const reference_request *
            shot->size.height, state->samples, state->samples == 1 ? "" : "s");
     if (state->samples > 1)
         printf("%.2g %% noise, ", (double)state->noise * 100);
-    printf("in %.2f s\n", r->total_ms / 1e3);
+    printf("in %.2f s%s\n", r->total_ms / 1e3, exposure_words(&shot->eye, r->exposure, words));
 }

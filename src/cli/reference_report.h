@@ -8,6 +8,7 @@
 typedef struct reference_report {
     ag_scene_summary scene;
     tracing tracing;
+    float exposure;        // that it was made with
     double environment_ms; // reading its file, beside the loading
     double encode_ms;
     double total_ms; // from the start of the process's work to the finished file

@@ -3,6 +3,7 @@
 // The device opens on a second thread while the scene loads (on a third the environment's
 // file is read), so that the wall time is the longest of them.
 #include "commands.h"
+#include "expose.h"
 #include "output.h"
 #include "render_report.h"
 #include "shot.h"
@@ -21,7 +22,6 @@ typedef struct work {
     ag_renderer *renderer; // made by `opening`, or
     tracing tracing;       // where there is no device
     ag_image *picture;
-    float exposure; // that it was made with
     render_report report;
 } work;
 
@@ -88,9 +88,11 @@ static ag_status render(work *w)
     ag_camera_desc camera;
     ag_render_options options;
     ag_status status = shot_compose(&w->shot, w->format, &camera, &options);
+    if (!status)
+        status = expose(&w->shot, w->renderer, &camera, NULL, &options);
     if (status)
         return status;
-    w->exposure = options.exposure > 0 ? options.exposure : ag_scene_exposure(w->shot.scene);
+    w->report.exposure = options.exposure;
     return w->renderer ? ag_renderer_render(w->renderer, w->shot.scene, &camera, &options,
                                             &w->picture, &w->report.stats)
                        : trace(w, &camera, &options);
@@ -100,7 +102,7 @@ static ag_status save(work *w)
 {
     console_stage(&w->console, "encode", 0);
     double start = now_ms();
-    ag_status status = output_save(&w->console, w->picture, w->exposure, w->request->output);
+    ag_status status = output_save(&w->console, w->picture, w->report.exposure, w->request->output);
     w->report.encode_ms = now_ms() - start;
     return status;
 }
@@ -173,7 +175,7 @@ static bool parse(shot_request *request, int argc, char **argv, bool *help)
     *request = shot_request_default();
     option_set set = {
         .command = "render",
-        .options = { options, shot_scene_options, shot_options, shot_device_options },
+        .options = { options, shot_scene_options, shot_options, eye_options, shot_device_options },
         .fields = request,
         .operands = &request->input,
         .operand_capacity = 1,
@@ -221,7 +223,7 @@ const command command_render = {
         "shine.  The picture appears whole or not at all.\n"
         "In .exr and .hdr it is linear light times the exposure, without a tone curve.\n"
         "Where there is no Vulkan device it is path traced, as by `argand reference`.\n",
-    .options = { options, shot_scene_options, shot_options, shot_device_options },
+    .options = { options, shot_scene_options, shot_options, eye_options, shot_device_options },
     .more = lights_lesson,
     .examples = "  argand render helmet.glb -o helmet.png\n"
                 "      The whole model in the studio, 1024x1024 pixels.\n"

@@ -1,6 +1,7 @@
 // What `argand render` tells when it is done.
 #include "render_report.h"
 
+#include "exposure_report.h"
 #include "json.h"
 #include "task.h"
 
@@ -43,6 +44,7 @@ static void print_json(const render_report *r, const shot_request *request)
     json_text(&j, "output", request->output);
     json_count(&j, "width", request->size.width);
     json_count(&j, "height", request->size.height);
+    report_exposure(&j, r->exposure);
     print_device(&j, &r->device);
     json_count(&j, "triangles", r->stats.triangles);
     json_count(&j, "instances", r->stats.instances);
@@ -59,9 +61,11 @@ static void print_json(const render_report *r, const shot_request *request)
 
 void render_report_print(const render_report *r, const shot_request *request)
 {
+    char words[32];
     if (request->json)
         print_json(r, request);
     else if (!request->quiet)
-        printf("%s: %ux%u pixels in %.2f s on %s\n", request->output, request->size.width,
-               request->size.height, r->total_ms / 1e3, r->device.name);
+        printf("%s: %ux%u pixels in %.2f s on %s%s\n", request->output, request->size.width,
+               request->size.height, r->total_ms / 1e3, r->device.name,
+               exposure_words(&request->eye, r->exposure, words));
 }

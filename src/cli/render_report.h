@@ -7,6 +7,7 @@
 typedef struct render_report {
     ag_device_info device;
     ag_scene_summary scene;
+    float exposure; // that it was made with
     ag_render_stats stats;
     double device_ms;      // opening it, beside the loading
     double environment_ms; // reading its file, beside the loading

@@ -103,10 +103,6 @@ const option shot_options[] = {
       value_fov_degrees, NULL, 0 },
     { "--background", NULL, "env|transparent|#rrggbb", "#ffffff", "what is behind it all (env)",
       FIELD(background), read_background, NULL, 0 },
-    { "--exposure", NULL, "FACTOR", "1", "a linear factor on the light (the scene's own, else 1)",
-      FIELD(exposure), value_factor, NULL, FIELD(exposure_given) },
-    { "--ev100", NULL, "EV", "0", "or as a camera counts it: the factor 1 / (1.2 * 2^EV)",
-      FIELD(ev100), value_ev100, NULL, FIELD(ev100_given) },
     { "--bloom", NULL, "SHARE", "0.2", "of the light, scattered as in the eye; 0.2 is an eye's (0)",
       FIELD(bloom), value_share, NULL, 0 },
     { "--tonemap", NULL, "CURVE", "neutral",
@@ -173,8 +169,6 @@ static bool sound(const shot_request *r)
     if (r->camera && (r->orbit_given || r->target_given))
         return refuse("--camera takes a camera of the file; --orbit and --target place one: give "
                       "one or the other.");
-    if (r->exposure_given && r->ev100_given)
-        return refuse("--exposure and --ev100 say the same in two ways; give one of them.");
     if (r->quiet && r->verbose)
         return refuse("--quiet and --verbose contradict each other; give one of them.");
     if (strncmp(r->input, "demo:", 5) == 0 && !known_demo(r->input + 5))
@@ -202,9 +196,7 @@ bool shot_request_settle(shot_request *r, const char *command, bool writes)
                 command, command, writes ? " -o picture.png" : "");
         return false;
     }
-    if (r->ev100_given)
-        r->exposure = ag_exposure_from_ev100(r->ev100);
-    return sound(r);
+    return eye_settle(&r->eye) && sound(r);
 }
 
 ag_log_level shot_log_level(const shot_request *r)

@@ -3,6 +3,7 @@
 #ifndef CLI_SHOT_OPTIONS_H
 #define CLI_SHOT_OPTIONS_H
 
+#include "eye_options.h"
 #include "lights.h"
 #include "options.h"
 #include "values.h"
@@ -30,14 +31,14 @@ typedef struct shot_request {
     environment_choice environment;
     float environment_rotation_rad, environment_intensity;
     background_choice background;
-    light_list lights;                           // besides those of the scene
-    float exposure, ev100;                       // exposure 0 = the scene's
+    light_list lights; // besides those of the scene
+    eye_request eye;
     float bloom;
     int tonemap, transfer, quality, area_lights; // of the enumerations of these names
     bool correct;                                // a built-in scene not as its text has it
     const char *device;
     bool validate, json, quiet, verbose;
-    bool orbit_given, target_given, exposure_given, ev100_given, tonemap_given, transfer_given;
+    bool orbit_given, target_given, tonemap_given, transfer_given;
     bool environment_given; // or its rotation, or its intensity
 } shot_request;
 

@@ -70,7 +70,7 @@ static bool parse(validate_request *r, int argc, char **argv, bool *help)
     *r = (validate_request) { .shot = shot_request_default() };
     option_set set = {
         .command = "validate",
-        .options = { options, shot_scene_options, shot_options, shot_device_options },
+        .options = { options, shot_scene_options, shot_options, eye_options, shot_device_options },
         .fields = r,
         .operands = r->inputs,
         .operand_capacity = SCENES_MOST,
@@ -222,7 +222,7 @@ const command command_validate = {
         "glows, shadows and light between surfaces, each alone in both pictures, of 512 pixels\n"
         "at most.  The page is one file and needs no network; `?` tells its keys.\n"
         "The page appears whole or not at all, when all scenes are done.\n",
-    .options = { options, shot_scene_options, shot_options, shot_device_options },
+    .options = { options, shot_scene_options, shot_options, eye_options, shot_device_options },
     .more = lights_lesson,
     .examples =
         "  argand validate helmet.glb --env workshop.hdr -o report\n"

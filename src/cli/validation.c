@@ -6,6 +6,7 @@
 #include "validation.h"
 
 #include "data_uri.h"
+#include "expose.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -313,10 +314,13 @@ ag_status validation_make(validation *v, shot *s, ag_renderer *renderer,
     maker *m = &w.maker;
     ag_status status = shot_compose(s, AG_FORMAT_RGBA8, &m->camera, &m->look);
     if (!status)
+        status = expose(s, renderer, &m->camera, NULL, &m->look);
+    if (!status)
         status = plan(&w);
     if (status)
         return status;
     m->look.progress = progress;
+    v->exposure = m->look.exposure;
     v->width = m->look.width;
     v->height = m->look.height;
     double part = part_share(&w);

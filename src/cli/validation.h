@@ -30,6 +30,7 @@ enum {
 typedef struct validation {
     const char *input; // borrowed
     uint32_t width, height;
+    float exposure; // of both pictures
     picture_pair shown;
     char *heat;
     ag_difference coded, linear; // of the pictures as shown, and of their light

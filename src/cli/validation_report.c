@@ -4,6 +4,7 @@
 // for them.
 #include "validation_report.h"
 
+#include "exposure_report.h"
 #include "json.h"
 
 #include <stdio.h>
@@ -55,6 +56,7 @@ static void write_scene(json *j, const validation *v, bool pictures)
     json_text(j, "input", v->input);
     json_count(j, "width", v->width);
     json_count(j, "height", v->height);
+    report_exposure(j, v->exposure);
     json_real(j, "flip", (double)v->coded.flip);
     json_real(j, "flip_max", (double)v->coded.flip_max);
     write_worst(j, &v->coded);

@@ -197,8 +197,7 @@ const char *value_sun_degrees(const char *value, void *field)
     return NULL;
 }
 
-// How many numbers there are with commas between; 0 for anything else or more than `most`.
-static size_t read_list(const char *value, double *numbers, size_t most)
+size_t value_numbers(const char *value, double *numbers, size_t most)
 {
     for (size_t count = 0; count < most; count++) {
         size_t length = strcspn(value, ",");
@@ -214,7 +213,7 @@ static size_t read_list(const char *value, double *numbers, size_t most)
 const char *value_vector(const char *value, void *field)
 {
     double v[3];
-    if (read_list(value, v, 3) != 3)
+    if (value_numbers(value, v, 3) != 3)
         return "is not three numbers X,Y,Z";
     for (int i = 0; i < 3; i++)
         ((float *)field)[i] = (float)v[i];
@@ -249,7 +248,7 @@ const char *value_color_weights(const char *value, void *field)
 const char *value_terms(const char *value, void *field)
 {
     double v[27];
-    size_t count = read_list(value, v, 27), channels = count % 12 && count != 27 ? 1 : 3;
+    size_t count = value_numbers(value, v, 27), channels = count % 12 && count != 27 ? 1 : 3;
     if (count != 4 && count != 9 && count != 12 && count != 27)
         return "is not 4, 9, 12 or 27 numbers";
     for (size_t i = 0; i < count / channels; i++)

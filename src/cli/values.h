@@ -4,6 +4,7 @@
 #define CLI_VALUES_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef struct picture_size {
@@ -47,6 +48,9 @@ const char *value_target(const char *value, void *field); // metres
 
 // #rrggbb; `field` is float[3], sRGB-coded in [0, 1].
 bool value_color(const char *value, float color[3]);
+
+// How many numbers there are with commas between; 0 for anything else or more than `most`.
+size_t value_numbers(const char *value, double *numbers, size_t most);
 
 // An index: digits only, below 2^31; false for anything else.
 bool value_index(const char *value, uint32_t *index);

@@ -19,10 +19,13 @@ ag_status ag_reference_meter(const ag_scene *scene, const ag_camera_desc *camera
                              const ag_metering *metering, float *ev100)
 {
     const ag_render_options small = metering_picture(picture);
+    ag_reference_options how = options ? *options : (ag_reference_options) { 0 };
     ag_reference *reference = NULL;
     ag_image *image = NULL;
     *ev100 = 0;
-    ag_status status = ag_reference_create(scene, camera, &small, options, &reference);
+    how.clamp = 0; // which is of exposed light
+    how.keep_aovs = false;
+    ag_status status = ag_reference_create(scene, camera, &small, &how, &reference);
     if (!status)
         status = trace(reference, &image);
     if (!status)

@@ -111,7 +111,12 @@ done
 noted x.png ev100 -0.263034
 "$argand" reference demo:specular -o x.png $small >out || fail "demo:specular"
 noted x.png ev100 -1.4157417 # 8 at 683 lm/W
-rm x.png x.exr
+"$argand" reference demo:spheres -o x.png $small --exposure auto --json >out || fail "auto"
+ev=$(sed -n 's/.*"ev100": \(.*\),/\1/p' out)
+noted x.png ev100 $ev
+"$argand" reference demo:spheres -o y.png $small --ev100 $ev >out
+"$argand" compare x.png y.png --max-flip 0.01 >out || fail "EV100 $ev is not what was metered"
+rm x.png x.exr y.png
 
 # What makes no sense.
 bad() {

@@ -120,6 +120,42 @@ glow all.png --validate --light directional --light 'sun angle=5 direction=0,-1,
     --light 'rect at=0,0,9 width=1 height=2 up=1,0,0' --light 'tube at=0,9,0 length=1 radius=.1' \
     --light 'ambient color=1,0,0 intensity=.1' --light 'hemispheric ground=.1,.1,.1' \
     --light 'harmonics terms=1,0,.5,0' --light 'harmonics terms=1,1,1,0,0,0,0,1,0,0,0,0'
+# Three ways to one exposure: f/4 at 1/64 s and ISO 400 is EV100 8.
+glow camera.png --light 'point at=0.3,0.3,2 intensity=4000' --aperture 4 --shutter 1/64 --iso 400
+glow ev.png --light 'point at=0.3,0.3,2 intensity=4000' --ev100 9 --ev-compensation 1
+glow factor.png --light 'point at=0.3,0.3,2 intensity=4000' --exposure 0.0032552083
+cmp -s camera.png ev.png || fail "a camera is not its EV100"
+cmp -s camera.png factor.png || fail "EV100 is not its factor"
+glow white.png --light 'point at=0.3,0.3,2 intensity=4' --white-balance 3000
+cmp -s white.png point.png && fail "--white-balance has no effect"
+rm ./*.png
+
+# The eye: the same bytes each time, what it found told, the same at any size; where a lamp is eight
+# times as bright, EV100 is three more, and the picture the same.
+eye() { # eye NAME SIZE ARGUMENT...
+    name=$1 size=$2
+    shift 2
+    "$argand" render "$lit" -o $name --size $size --env none --json --exposure auto "$@" \
+        >out 2>err || fail "render $name: $*"
+    ev=$(sed -n 's/.*"ev100": \(.*\),/\1/p' out)
+}
+lamp='point at=0.3,0.3,2 intensity'
+eye a.png 64x64 --light "$lamp=4" && first=$ev
+eye b.png 64x64 --light "$lamp=4"
+cmp -s a.png b.png || fail "--exposure auto is not the same each time"
+noted a.png ev100 $first
+eye c.png 128x128 --light "$lamp=4"
+[ $ev = $first ] || fail "EV100 $ev at another size, not $first"
+eye d.png 64x64 --light "$lamp=32"
+awk "BEGIN { d = $ev - $first - 3; exit d * d > 1e-6 }" || fail "EV100 $ev is not $first + 3"
+"$argand" compare a.png d.png --max-flip 0.01 >out || fail "what the eye sees is not the same"
+eye e.png 64x64 --light "$lamp=4" --exposure-limits 20,30
+[ $ev = 20 ] || fail "the limit is 20, not $ev"
+eye f.png 64x64 --light "$lamp=4" --metering average --ev-compensation=-1.5
+eye g.png 64x64 --light "$lamp=4" --metering spot=0.9,0.9
+[ $ev = -10 ] || fail "black is metered as $ev"
+"$argand" render "$lit" -o h.png $small --exposure auto >out || fail "--exposure auto"
+grep -q ', EV100 [-0-9.]*$' out || fail "EV100 is not told"
 rm ./*.png
 
 # What only shows once the files are read.

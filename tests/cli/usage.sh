@@ -53,6 +53,20 @@ bad "not a factor above 0" --exposure -1
 bad "not a factor above 0" --exposure 0
 bad "not a factor above 0" --env-intensity 0
 bad "not between -32 and 32" --ev100 33
+bad "not a number" --exposure automatic
+bad "not an f-number" --aperture 0
+bad "nor 1/N" --shutter 1/x
+bad "not between 0.000001" --shutter 1/0
+bad "not an ISO speed" --iso 100,200
+bad "not average, center, spot" --metering spot:1,1
+bad "no place X,Y" --metering spot=1
+bad "outside the picture" --metering spot=0.5,1.5
+bad "not two EV100" --exposure-limits 3
+bad "lesser to a greater" --exposure-limits 3,2
+bad "leaves nothing" --exposure-limits 0,0
+bad "between 1667 and 25000" --white-balance 1000
+bad "tint outside" --white-balance 5000,151
+bad "not KELVIN" --white-balance 5000,1,1
 bad "is not a share of 0 to 1" --bloom 1.5
 bad "is not a share of 0 to 1" --bloom=-0.1
 bad "is not a number" --env-rotation north
@@ -114,6 +128,12 @@ bad "is one too many: at most 256 are taken" $(yes -- --light=point | head -n 25
 bad "one argument too many" other.glb
 bad "give one or the other" --camera 0 --orbit 0,90,1
 bad "give one of them" --exposure 1 --ev100 0
+bad "give one of them" --exposure auto --aperture 4 --shutter 1
+bad "give one of them" --ev100 3 --iso 200
+bad "only --iso may be left out" --aperture 4
+bad "only --iso may be left out" --shutter 1/30 --iso 400
+bad "add --exposure auto" --metering spot
+bad "add --exposure auto" --exposure 2 --exposure-limits 1,5
 bad "give one of them" --quiet --verbose
 bad "--device: '' is empty" --device ""
 expect 2 "where should the picture go" render "$triangle"

@@ -57,6 +57,10 @@ grep -q "FLIP is above 0.0001 in 1 of 1 scenes: demo:lights" err || fail "the li
     scenes.0.samples=4 scenes.0.causes.0.name scenes.0.causes.0.error || fail "--json lacks"
 [ -s limit/index.html ] || fail "no page above the limit"
 
+# One exposure for both pictures.
+"$argand" validate demo:lights -o eye $small --exposure auto --json >out 2>err || fail "auto"
+"$json" out scenes.0.exposure scenes.0.ev100 || fail "--json lacks the exposure"
+
 # More samples, less noise: the mean difference falls, but not what noise is taken out of.
 for n in 2 16; do
     "$argand" validate demo:materials -o few --size 64x64 --spp $n --device cpu --json >few.$n ||
