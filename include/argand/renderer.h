@@ -170,7 +170,7 @@ AG_CHECK ag_status ag_renderer_render(ag_renderer *renderer, const ag_scene *sce
 AG_CHECK ag_status ag_image_display(const ag_log *log, const ag_image *linear,
                                     const ag_render_options *look, ag_image **shown);
 
-// Scatter a share of a linear picture's light as the eye does (CIE 146:2002, docs/exposure.md), as
+// Scatter a share of a linear picture's light as the eye does (CIE 146:2002, docs/physics.md), as
 // if its height were seen under 45 degrees.  A share of .2 is then a young eye's.  No light is
 // lost: beyond the edges lies the mirror image.  RGBA32F, exposed or not; alpha is scattered with
 // the light.  NaN counts as 0, what is beyond 1e30 as that.  On all cores; any number of threads

@@ -2,7 +2,7 @@
 //
 // Three cards lie on a table on a terrace, .6 m above the ground, white, grey and black; a person
 // of 1.75 m stands by.  What the cards reflect is Lambert's alone, so that under E lux they are
-// of reflectance E / pi nit.  docs/exposure.md lights it.
+// of reflectance E / pi nit.  docs/real-units.md lights it.
 #include "scene/demo.h"
 
 static const float pi = 3.14159265359f;

@@ -1,5 +1,5 @@
 // One scene under light of half a million times the strength, in lux: what its cards reflect, and
-// how they come out of cameras.  docs/exposure.md has the same lights.
+// how they come out of cameras.  docs/real-units.md has the same lights.
 #include "stage.h"
 
 #include "scene/environment.h"
