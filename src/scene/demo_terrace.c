@@ -74,9 +74,9 @@ void demo_terrace(stage *s)
     show_table(s);
     show_balls(s);
     show_person(s);
-    stage_show_turned(s, stage_panel(s, 80, 80, 1), grey(s, 0.22f), (vec3) { 0, 0, 0 }, 0,
+    stage_show_turned(s, stage_panel(s, 80, 80, 1), grey(s, 0.3f), (vec3) { 0, 0, 0 }, 0,
                       -0.5f * pi);
-    stage_show(s, stage_panel(s, 6, 2.1f, 1), matte(s, (vec3) { 0.3f, 0.25f, 0.19f }),
+    stage_show(s, stage_panel(s, 6, 2.1f, 1), matte(s, (vec3) { 0.45f, 0.37f, 0.28f }),
                (vec3) { 0.4f, 1.05f, -2.2f });
     stage_environment(s, AG_ENVIRONMENT_NONE);
     stage_view(s, (ag_camera_desc) { .position = { -0.5f, 1.75f, 3.1f },

@@ -148,12 +148,47 @@ static void sunny_16_is_right(void **state)
     ag_renderer_destroy(renderer);
 }
 
+static double metered(ag_renderer *renderer, const ag_scene *scene, const ag_metering *metering,
+                      float *ev100)
+{
+    const ag_render_options options = { .width = WIDTH, .height = HEIGHT };
+    ag_camera_desc camera;
+    assert_true(ag_scene_camera(scene, 0, &camera));
+    OK(ag_renderer_meter(renderer, scene, &camera, &options, metering, ev100));
+    ag_image *image = draw(renderer, scene, ag_exposure_from_ev100(*ev100));
+    double grey = card(image, 1);
+    ag_image_destroy(image);
+    return grey;
+}
+
+// EV100 has what is metered at 1 / 9.6 of white.  A meter that looks at the grey card alone has it
+// there, and says its lux; the one that weighs all of the picture has it near.
+static void meters_need_no_help(void **state)
+{
+    const ag_metering spot = {
+        .meter = AG_METER_SPOT, .spot_x = -0.07f, .spot_y = 0.16f, .spot_radius = 0.02f
+    };
+    ag_renderer *renderer;
+    OK(ag_renderer_create(*state, &renderer));
+    for (int i = 0; i < LIGHTINGS; i++) {
+        float ev100;
+        ag_scene *scene = terrace(&lightings[i]);
+        assert_true(fabs(log2(metered(renderer, scene, &spot, &ev100) * 9.6)) < 0.02);
+        double lux = 12.5 / 100 * exp2((double)ev100) * (double)pi / 0.18;
+        assert_within(lux, lightings[i].lux, 0.02);
+        assert_true(fabs(log2(metered(renderer, scene, NULL, &ev100) * 9.6)) < 0.15);
+        ag_scene_destroy(scene);
+    }
+    ag_renderer_destroy(renderer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         KIT_TEST(cards_reflect_the_stated_lux),
         KIT_TEST(sky_is_20000_lux),
         KIT_TEST(sunny_16_is_right),
+        KIT_TEST(meters_need_no_help),
     };
     return cmocka_run_group_tests_name("real units", tests, kit_open, kit_close);
 }
