@@ -4,7 +4,7 @@
 
 #include "scene/environment.h"
 
-enum { WIDTH = 240, HEIGHT = 160, LIGHTS_MAX = 5 };
+enum { WIDTH = 120, HEIGHT = 80, LIGHTS_MAX = 5 };
 
 static const float pi = 3.14159265f;
 
@@ -82,7 +82,7 @@ static ag_image *draw(ag_renderer *renderer, const ag_scene *scene, float exposu
 // White, grey and black, at their middles; the luminance in the picture.
 static double card(const ag_image *image, int index)
 {
-    static const int at[3][2] = { { 73, 108 }, { 105, 106 }, { 137, 103 } };
+    static const int at[3][2] = { { 36, 54 }, { 52, 53 }, { 68, 51 } };
     const float *p =
         (const float *)ag_image_pixels(image) + 4 * (at[index][1] * WIDTH + at[index][0]);
     return 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
