@@ -1,5 +1,6 @@
 // argand view: the scene in a window.
 #include "commands.h"
+#include "expose.h"
 #include "shot.h"
 #include "viewer/viewer.h"
 
@@ -43,6 +44,11 @@ static ag_status open_document(void *user, const char *input, bool draft, const 
     ag_status status = shot_open(&s, &request, &v->hears);
     if (!status)
         status = shot_compose(&s, AG_FORMAT_RGBA8, &document->camera, &document->look);
+    const eye_request *eye = &request.eye;
+    document->auto_exposure = eye->exposure.automatic;
+    document->metering = eye->metering;
+    if (!status && !eye->exposure.automatic)
+        status = expose(&s, NULL, &document->camera, NULL, &document->look);
     if (!status) {
         document->scene = s.scene;
         s.scene = NULL;
@@ -71,7 +77,8 @@ static bool parse(view_request *request, int argc, char **argv, bool *help)
     request->shot.size = (picture_size) { 1280, 720 };
     option_set set = {
         .command = "view",
-        .options = { view_options, shot_scene_options, shot_options, shot_device_options },
+        .options = { view_options, shot_scene_options, shot_options, eye_options,
+                     shot_device_options },
         .fields = request,
         .operands = &request->shot.input,
         .operand_capacity = 1,
@@ -138,7 +145,7 @@ const command command_view = {
         "Drag to turn, press ? for all keys; R traces the paths of light beside the picture.\n"
         "The file is read again when it changes, and another one when it is dropped on the\n"
         "window.  What was changed is saved as .glb by F5, in the folder that argand runs in.\n",
-    .options = { view_options, shot_scene_options, shot_options, shot_device_options },
+    .options = { view_options, shot_scene_options, shot_options, eye_options, shot_device_options },
     .more = lights_lesson,
     .examples = "  argand view helmet.glb\n"
                 "      The whole model in the studio.\n"
