@@ -1,7 +1,5 @@
-// The exposure of a picture: the one asked for, the scene's, or a metered one.
+// The exposure of a picture where it is to be metered.
 #include "expose.h"
-
-#include <math.h>
 
 static ag_status meter(const shot *s, ag_renderer *renderer, const ag_camera_desc *camera,
                        const ag_reference_options *how, const ag_render_options *options,
@@ -16,12 +14,9 @@ static ag_status meter(const shot *s, ag_renderer *renderer, const ag_camera_des
 ag_status expose(const shot *s, ag_renderer *renderer, const ag_camera_desc *camera,
                  const ag_reference_options *how, ag_render_options *options)
 {
-    const eye_request *e = &s->request->eye;
-    float factor = e->exposure.factor > 0 ? e->exposure.factor : ag_scene_exposure(s->scene);
-    options->exposure = factor * exp2f(e->metering.compensation_ev);
-    if (!e->exposure.automatic)
-        return AG_OK;
     float ev100;
+    if (!s->request->eye.exposure.automatic)
+        return AG_OK;
     ag_status status = meter(s, renderer, camera, how, options, &ev100);
     options->exposure = ag_exposure_from_ev100(ev100);
     return status;

@@ -150,6 +150,14 @@ static void set_look(const shot_request *r, ag_render_options *options)
         options->transfer = (ag_transfer)r->transfer;
 }
 
+// As it is asked for, or the scene's own.
+static float set_exposure(const shot *s)
+{
+    const eye_request *e = &s->request->eye;
+    float factor = e->exposure.factor > 0 ? e->exposure.factor : ag_scene_exposure(s->scene);
+    return factor * exp2f(e->metering.compensation_ev);
+}
+
 ag_status shot_compose(shot *s, ag_format format, ag_camera_desc *camera,
                        ag_render_options *options)
 {
@@ -161,6 +169,7 @@ ag_status shot_compose(shot *s, ag_format format, ag_camera_desc *camera,
         .quality = (ag_quality)r->quality,
         .area_lights = (ag_area_lights)r->area_lights,
         .background = r->background.kind,
+        .exposure = set_exposure(s),
         .white_balance_k = r->eye.white_balance[0],
         .white_balance_tint = r->eye.white_balance[1],
         .bloom = r->bloom,

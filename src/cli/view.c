@@ -50,6 +50,8 @@ static ag_status open_document(void *user, const char *input, bool draft, const 
     if (!status && !eye->exposure.automatic)
         status = expose(&s, NULL, &document->camera, NULL, &document->look);
     if (!status) {
+        document->auto_exposure = request.eye.exposure.automatic;
+        document->metering = request.eye.metering;
         document->scene = s.scene;
         s.scene = NULL;
     }
