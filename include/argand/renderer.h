@@ -151,13 +151,15 @@ typedef struct ag_render_stats {
 // Put a scene's meshes and textures on the device ahead of the first picture, and free its
 // images in host memory as they arrive: for programs that need each scene once, this saves
 // their size at the peak.  From then on only this renderer can draw the scene, and only as
-// long as it is not changed and no other scene was drawn in between; AG_ERROR_ARGUMENT
-// otherwise.  A failure half-way may already have freed some.  `upload_ms`, what it took,
-// may be NULL.
+// long as nothing was added to it and no other scene was drawn in between; AG_ERROR_ARGUMENT
+// otherwise.  Lights, environment and exposure may change, and materials that read no image
+// in a way that none did before.  A failure half-way may already have freed some.  `upload_ms`,
+// what it took, may be NULL.
 AG_CHECK ag_status ag_renderer_take(ag_renderer *renderer, ag_scene *scene, double *upload_ms);
 
 // Make a picture.  Meshes, textures and the environment are kept on the device until a
-// different scene, or a changed one, is rendered; the scene is not needed afterwards.
+// different scene is rendered or something is added to it; lights and materials that are set cost
+// no upload but their own.  The scene is not needed afterwards.
 // `camera` NULL -> ag_scene_frame's automatic view.  `stats` may be NULL.
 AG_CHECK ag_status ag_renderer_render(ag_renderer *renderer, const ag_scene *scene,
                                       const ag_camera_desc *camera,

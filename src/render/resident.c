@@ -41,18 +41,35 @@ static ag_status make_things(ag_renderer *renderer, const ag_scene *scene, bool 
     return status;
 }
 
+// Materials alone were set to others.
+static ag_status renew_materials(ag_renderer *renderer, const ag_scene *scene, gpu_upload *upload)
+{
+    gpu_device *device = renderer->device;
+    resident *r = &renderer->resident;
+    ag_status status = textures_complete(device, scene, false, upload, &r->textures);
+    if (status)
+        return status;
+    materials_destroy(device, &r->materials);
+    return materials_create(device, &renderer->bindings, scene, &r->textures, &r->materials);
+}
+
 ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool release,
                           double *upload_ms)
 {
     resident *r = &renderer->resident;
-    if (r->scene == scene->id && r->revision == scene->revision &&
-        r->materials_revision == scene->materials_revision)
+    bool there = r->scene == scene->id && r->revision == scene->revision;
+    if (there && r->materials_revision == scene->materials_revision)
         return AG_OK;
+    if (there && !textures_at_hand(scene, &r->textures))
+        return log_fail(&renderer->device->log, AG_ERROR_ARGUMENT,
+                        "a material that was set reads an image as none did before, but the "
+                        "scene's images were released when a renderer took them");
     double start = clock_ms();
     gpu_upload upload;
     ag_status status = gpu_upload_begin(renderer->device, &upload);
     if (!status)
-        status = make_things(renderer, scene, release, &upload);
+        status = there ? renew_materials(renderer, scene, &upload)
+                       : make_things(renderer, scene, release, &upload);
     if (!status)
         status = gpu_upload_end(&upload);
     gpu_upload_finish(&upload);

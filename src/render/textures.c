@@ -3,6 +3,7 @@
 
 #include "base/array.h"
 #include "base/log.h"
+#include "image/image.h"
 #include "render/texture_jobs.h"
 
 #include "interop/scene.glsl"
@@ -74,7 +75,7 @@ static ag_status index_images(const ag_scene *scene, textures *t)
 
 // ---- Uploads -----------------------------------------------------------------
 
-// One job for every image and every way that some material reads it.
+// One job for every image and every way that some material reads it, unless it is there already.
 static size_t list_jobs(const ag_scene *scene, textures *t, texture_job *jobs, bool *seen)
 {
     size_t count = 0;
@@ -86,7 +87,7 @@ static size_t list_jobs(const ag_scene *scene, textures *t, texture_job *jobs, b
                 continue;
             texture_kind kind = textures_kind(material, slot);
             size_t place = t->image_of[id - 1] * (size_t)TEXTURE_KINDS + kind;
-            if (!seen[place])
+            if (!seen[place] && !t->images[place].image)
                 jobs[count++] = (texture_job) { .image = scene->textures[id - 1].image,
                                                 .target = &t->images[place],
                                                 .kind = kind };
@@ -95,8 +96,8 @@ static size_t list_jobs(const ag_scene *scene, textures *t, texture_job *jobs, b
     return count;
 }
 
-static ag_status upload_used(gpu_device *device, const ag_scene *scene, bool release,
-                             gpu_upload *upload, textures *t)
+ag_status textures_complete(gpu_device *device, const ag_scene *scene, bool release,
+                            gpu_upload *upload, textures *t)
 {
     texture_job *jobs = calloc(t->image_count * TEXTURE_KINDS + 1, sizeof *jobs);
     bool *seen = calloc(t->image_count * TEXTURE_KINDS + 1, sizeof *seen);
@@ -110,6 +111,22 @@ static ag_status upload_used(gpu_device *device, const ag_scene *scene, bool rel
     free(jobs);
     free(seen);
     return status;
+}
+
+bool textures_at_hand(const ag_scene *scene, const textures *t)
+{
+    for (size_t m = 0; m < scene->materials_count; m++)
+        for (uint32_t slot = 0; slot < GPU_TEXTURE_COUNT; slot++) {
+            const ag_material_desc *material = &scene->materials[m];
+            uint32_t id = textures_use(material, slot)->texture.id;
+            if (!id)
+                continue;
+            texture_kind kind = textures_kind(material, slot);
+            if (!t->images[t->image_of[id - 1] * (size_t)TEXTURE_KINDS + kind].image &&
+                !scene->textures[id - 1].image->pixels)
+                return false;
+        }
+    return true;
 }
 
 // An image of one texel.
@@ -146,7 +163,7 @@ ag_status textures_create(gpu_device *device, const ag_scene *scene, bool releas
     ag_status status = index_images(scene, t);
     if (!status)
         status = upload_stand_ins(device, upload, t);
-    return status ? status : upload_used(device, scene, release, upload, t);
+    return status ? status : textures_complete(device, scene, release, upload, t);
 }
 
 void textures_destroy(gpu_device *device, textures *t)

@@ -35,6 +35,11 @@ typedef struct textures {
 // device may still be copying into it.
 AG_CHECK ag_status textures_create(gpu_device *device, const ag_scene *scene, bool release,
                                    gpu_upload *upload, textures *t);
+// Add what materials that were set since read besides: only where it is at hand, on the device or
+// in the scene.
+bool textures_at_hand(const ag_scene *scene, const textures *t);
+AG_CHECK ag_status textures_complete(gpu_device *device, const ag_scene *scene, bool release,
+                                     gpu_upload *upload, textures *t);
 void textures_destroy(gpu_device *device, textures *t); // zero is allowed
 
 // The way that a material reads texture `slot` (GPU_TEXTURE_).
