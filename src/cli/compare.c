@@ -1,6 +1,7 @@
 // argand compare: how far apart two pictures are.
 #include "commands.h"
 #include "json.h"
+#include "notes.h"
 #include "output.h"
 #include "values.h"
 
@@ -80,8 +81,10 @@ static ag_status measure(work *w)
     ag_compare_options how = { .pixels_per_degree = w->request->pixels_per_degree };
     ag_status status = ag_image_compare(&log, w->pictures[0], w->pictures[1], &how, &w->difference,
                                         w->request->output ? &w->heat : NULL);
+    notes said;
+    ag_image_save_options save = notes_of_map(&said);
     if (!status && w->heat)
-        status = output_save(&w->console, w->heat, 0, w->request->output);
+        status = output_save(&w->console, w->heat, &save, w->request->output);
     return status;
 }
 

@@ -5,7 +5,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -105,46 +104,24 @@ static void hold_interrupts(sigset_t *before)
     pthread_sigmask(SIG_BLOCK, &interrupts, before);
 }
 
-typedef struct facts {
-    char software[32];
-    ag_image_note notes[3];
-} facts;
-
-// What made the picture, and how it was exposed: EV100, and OpenEXR's standard attribute for it.
-static ag_image_save_options save_options(facts *f, float exposure)
+ag_status output_save(console *c, const ag_image *image, const ag_image_save_options *options,
+                      const char *path)
 {
-    ag_image_save_options options = { .notes = f->notes };
-    snprintf(f->software, sizeof f->software, "Argand %s", ag_version());
-    f->notes[options.note_count++] = (ag_image_note) { .key = "Software", .text = f->software };
-    if (!(exposure > 0))
-        return options;
-    double white = 1 / (double)exposure; // nit, 1.2 * 2^EV100 (ISO 12232)
-    f->notes[options.note_count++] = (ag_image_note) { "ev100", NULL, log2(white / 1.2) };
-    f->notes[options.note_count++] = (ag_image_note) { "whiteLuminance", NULL, white };
-    return options;
-}
-
-ag_status output_save(console *c, const ag_image *image, float exposure, const char *path)
-{
-    facts f;
-    ag_image_save_options options = save_options(&f, exposure);
     ag_log log = console_log(c);
     sigset_t before;
     hold_interrupts(&before);
-    ag_status status = ag_image_save(&log, image, path, &options);
+    ag_status status = ag_image_save(&log, image, path, options);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return status;
 }
 
-ag_status output_save_layers(console *c, const ag_image_layer *layers, size_t count, float exposure,
-                             const char *path)
+ag_status output_save_layers(console *c, const ag_image_layer *layers, size_t count,
+                             const ag_image_save_options *options, const char *path)
 {
-    facts f;
-    ag_image_save_options options = save_options(&f, exposure);
     ag_log log = console_log(c);
     sigset_t before;
     hold_interrupts(&before);
-    ag_status status = ag_image_save_layers(&log, layers, count, path, &options);
+    ag_status status = ag_image_save_layers(&log, layers, count, path, options);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return status;
 }

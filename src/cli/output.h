@@ -17,11 +17,11 @@ output_verdict output_check(console *console, const char *path, ag_format *forma
 // The same for a scene, which needs a name in .glb.
 output_verdict output_check_scene(console *console, const char *path);
 
-// Write the picture, and into PNG and OpenEXR files the exposure that it has been made with (a
-// linear factor; 0 = it has none).  An interrupt meanwhile waits until the file is whole.
-ag_status output_save(console *console, const ag_image *image, float exposure, const char *path);
+// Write the picture.  An interrupt meanwhile waits until the file is whole.
+ag_status output_save(console *console, const ag_image *image, const ag_image_save_options *options,
+                      const char *path);
 ag_status output_save_layers(console *console, const ag_image_layer *layers, size_t count,
-                             float exposure, const char *path);
+                             const ag_image_save_options *options, const char *path);
 
 // Write the scene, likewise.
 ag_status output_save_scene(console *console, const ag_scene *scene, const char *path);

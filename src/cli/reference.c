@@ -1,6 +1,7 @@
 // argand reference: the same picture, path traced.
 #include "commands.h"
 #include "expose.h"
+#include "notes.h"
 #include "output.h"
 #include "reference_report.h"
 #include "shot.h"
@@ -85,9 +86,10 @@ static ag_status save(work *w)
     ag_image_layer layers[AOV_COUNT + 1];
     size_t count = list_layers(w, layers);
     const char *path = w->request->shot.output;
-    ag_status status =
-        count > 1 ? output_save_layers(&w->console, layers, count, w->report.exposure, path)
-                  : output_save(&w->console, w->picture, w->report.exposure, path);
+    notes said;
+    ag_image_save_options save = notes_of_picture(&said, &w->request->shot.eye, w->report.exposure);
+    ag_status status = count > 1 ? output_save_layers(&w->console, layers, count, &save, path)
+                                 : output_save(&w->console, w->picture, &save, path);
     w->report.encode_ms = now_ms() - start;
     return status;
 }

@@ -4,6 +4,7 @@
 // file is read), so that the wall time is the longest of them.
 #include "commands.h"
 #include "expose.h"
+#include "notes.h"
 #include "output.h"
 #include "render_report.h"
 #include "shot.h"
@@ -102,7 +103,9 @@ static ag_status save(work *w)
 {
     console_stage(&w->console, "encode", 0);
     double start = now_ms();
-    ag_status status = output_save(&w->console, w->picture, w->report.exposure, w->request->output);
+    notes said;
+    ag_image_save_options save = notes_of_picture(&said, &w->request->eye, w->report.exposure);
+    ag_status status = output_save(&w->console, w->picture, &save, w->request->output);
     w->report.encode_ms = now_ms() - start;
     return status;
 }

@@ -109,6 +109,8 @@ for options in "-o x.png" "-o x.exr" "-o x.exr --aov depth"; do
 done
 "$argand" reference "$triangle" -o x.png $small --exposure 1 >out || fail "--exposure 1"
 noted x.png ev100 -0.263034
+"$argand" reference "$triangle" -o x.exr $small --aperture 16 --shutter 1/100 >out || fail "f/16"
+noted x.exr ev100 14.643856 aperture 16 expTime .01 isoSpeed 100
 "$argand" reference demo:specular -o x.png $small >out || fail "demo:specular"
 noted x.png ev100 -1.4157417 # 8 at 683 lm/W
 "$argand" reference demo:spheres -o x.png $small --exposure auto --json >out || fail "auto"
