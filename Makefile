@@ -34,7 +34,8 @@ sanitize: ## run the tests under AddressSanitizer and UBSan
 
 clang: ## build everything with clang too: no warnings there either
 	@scripts/packages.sh build run test
-	@test -f build/clang/build.ninja || cmake --preset debug -B build/clang -DCMAKE_C_COMPILER=clang
+	@test -f build/clang/build.ninja || cmake --preset debug -B build/clang \
+	    -DCMAKE_C_COMPILER=clang -DCMAKE_C_FLAGS_DEBUG=-O0
 	@cmake --build build/clang -j $(JOBS)
 
 bench: ## build and run the benchmarks

@@ -7,7 +7,7 @@ _argand() {
     local word=$2 before=$3 words= files=
     case $before in
     argand | */argand)
-        words='render reference compare validate convert info devices demo help --version'
+        words='view render reference compare validate convert info devices demo help --version'
         ;;
     --tonemap) words='none reinhard aces aces-narkowicz neutral agx' ;;
     --exposure) words='auto' ;;
@@ -21,7 +21,7 @@ _argand() {
     --background) words='env transparent' ;;
     --env) words='studio sky none' files=1 ;;
     --device) words='auto cpu' ;;
-    help) words='render reference compare validate convert info devices demo' ;;
+    help) words='view render reference compare validate convert info devices demo' ;;
     *)
         if [[ $word == -* ]]; then
             words=$(_argand_options "${COMP_WORDS[1]}")
