@@ -48,6 +48,8 @@ AG_API void ag_scene_destroy(ag_scene *scene); // NULL is allowed
 typedef struct ag_load_options {
     uint32_t scene;       // of a file with several, 1 = the first; 0 -> the file's default
     ag_progress progress; // stages "load", "decode"
+    bool skip_images; // for a first look, soon: materials without their textures, and dark where
+                      // a texture says what shines
 } ag_load_options;
 
 // Read a glTF 2.0 file (.gltf with its files, or .glb) and append it.  Its nodes are
@@ -344,6 +346,11 @@ AG_CHECK ag_status ag_scene_set_environment(ag_scene *scene, const ag_environmen
 // written, AG_ERROR_ARGUMENT when the scene's images were released (ag_renderer_take),
 // AG_ERROR_UNSUPPORTED above 4 GiB.
 AG_CHECK ag_status ag_scene_save(const ag_scene *scene, const char *path);
+
+// Prepare what surrounds the scene for shading, on all cores, so that the first picture finds it in
+// the disk cache: some hundred milliseconds once, a look where it is known already.  Reads the
+// scene.  `progress` (NULL -> not wanted): stage "bake".  AG_ERROR_MEMORY.
+AG_CHECK ag_status ag_scene_bake(const ag_scene *scene, const ag_progress *progress);
 
 // ---- Asking it -------------------------------------------------------------
 

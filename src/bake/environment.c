@@ -12,6 +12,7 @@
 #include "image/half.h"
 #include "image/image.h"
 #include "physics/environment.glsl"
+#include "scene/scene.h"
 
 #include <stdlib.h>
 
@@ -170,4 +171,27 @@ void bake_environment_finish(bake_environment *environment)
 {
     free(environment->cube);
     *environment = (bake_environment) { 0 };
+}
+
+static ag_status stopped(const ag_scene *scene, const ag_progress *progress, double fraction)
+{
+    if (!progress || !progress->update || progress->update(progress->user, "bake", fraction))
+        return AG_OK;
+    return log_fail(&scene->log, AG_ERROR_CANCELLED, "preparing the environment was cancelled");
+}
+
+ag_status ag_scene_bake(const ag_scene *scene, const ag_progress *progress)
+{
+    const ag_image *image = NULL;
+    bake_environment baked = { 0 };
+    ag_status status = stopped(scene, progress, 0);
+    if (!status)
+        status = scene_environment_open(scene, &image);
+    if (status)
+        return status;
+    if (image)
+        status = bake_environment_make(&scene->log, image, &baked, NULL);
+    bake_environment_finish(&baked);
+    scene_environment_close(scene, image);
+    return status ? status : stopped(scene, progress, 1);
 }

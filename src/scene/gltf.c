@@ -78,14 +78,15 @@ static ag_status read_structure(gltf_file *file)
 
 static ag_status fill_scene(gltf_file *file)
 {
+    bool textured = !file->options.skip_images;
     ag_status status = gltf_materials_read(file);
-    if (!status)
+    if (!status && textured)
         status = gltf_textures_read(file);
     if (!status)
         status = gltf_progress(file, "load", 0.5);
-    if (!status)
+    if (!status && textured)
         status = gltf_images_decode(file);
-    if (!status)
+    if (!status && textured)
         status = gltf_textures_add(file);
     if (!status)
         status = gltf_materials_add(file);

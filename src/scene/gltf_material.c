@@ -260,6 +260,8 @@ ag_status gltf_materials_add(gltf_file *file)
         gltf_material *material = &file->materials[i];
         if (!material->used)
             continue;
+        if (file->options.skip_images && material->desc.emissive_texture.texture.id)
+            memset(material->desc.emissive, 0, sizeof material->desc.emissive);
         translate_textures(file, &material->desc);
         status = ag_scene_add_material(file->scene, &material->desc, &material->material);
     }

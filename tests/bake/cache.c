@@ -2,6 +2,7 @@
 #include "bake/cache.h"
 #include "base/file.h"
 
+#include "scene/scene.h"
 #include "skies.h"
 
 #include <dirent.h>
@@ -120,6 +121,46 @@ static void second_time_is_found(void **state)
     bake_environment_finish(&a);
     bake_environment_finish(&b);
     assert_int_equal(f->warnings, 0);
+}
+
+static bool refuse(void *user, const char *stage, double fraction)
+{
+    (void)fraction;
+    ++*(int *)user;
+    return strcmp(stage, "bake") != 0;
+}
+
+static void quiet(void *user, ag_log_level level, const char *sentence)
+{
+    (void)user, (void)level, (void)sentence;
+}
+
+// What surrounds a scene is prepared ahead: the renderer's own request finds it.
+static void a_scene_is_baked_ahead(void **state)
+{
+    fixture *f = *state;
+    ag_scene *scene;
+    int asked = 0;
+    ag_image *image = sky_image(64, sky);
+    const ag_environment_desc desc = { .kind = AG_ENVIRONMENT_IMAGE, .image = image };
+    assert_int_equal(ag_scene_create(&(ag_log) { .write = quiet }, &scene), AG_OK);
+    assert_int_equal(ag_scene_set_environment(scene, &desc), AG_OK);
+    assert_int_equal(ag_scene_bake(scene, &(ag_progress) { refuse, &asked }), AG_ERROR_CANCELLED);
+    assert_int_equal(asked, 1);
+    assert_int_equal(ag_scene_bake(scene, NULL), AG_OK);
+    bake_environment found;
+    bool cached = false;
+    const ag_image *kept;
+    assert_int_equal(scene_environment_open(scene, &kept), AG_OK);
+    assert_int_equal(bake_environment_make(&f->log, kept, &found, &cached), AG_OK);
+    assert_true(cached);
+    bake_environment_finish(&found);
+    scene_environment_close(scene, kept);
+    const ag_environment_desc none = { .kind = AG_ENVIRONMENT_NONE };
+    assert_int_equal(ag_scene_set_environment(scene, &none), AG_OK);
+    assert_int_equal(ag_scene_bake(scene, NULL), AG_OK);
+    ag_scene_destroy(scene);
+    ag_image_destroy(image);
 }
 
 static void damage_is_noticed_and_mended(void **state)
@@ -269,6 +310,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(second_time_is_found, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_scene_is_baked_ahead, set_up, tear_down),
         cmocka_unit_test_setup_teardown(damage_is_noticed_and_mended, set_up, tear_down),
         cmocka_unit_test_setup_teardown(unwanted_cache_is_not_touched, set_up, tear_down),
         cmocka_unit_test_setup_teardown(no_folder_is_a_warning, set_up, tear_down),

@@ -288,6 +288,30 @@ static void image_sources(void **state)
     assert_int_equal(color_of(k, &k->scene->materials[1].emissive_texture), 0);
 }
 
+// Without images there are factors, and nothing shines that a texture would have to limit; what is
+// wrong with an image is not found.
+static void images_left_out(void **state)
+{
+    kit *k = *state;
+    textured t = make_textured(k);
+    const char *json = textured_json(&t,
+                                     "'normalTexture':{'index':1},'emissiveTexture':{'index':0},"
+                                     "'emissiveFactor':[1,1,1],'pbrMetallicRoughness':"
+                                     "{'baseColorFactor':[0.5,1,1,1],'metallicFactor':0.25}",
+                                     "");
+    memset(t.bytes + t.offsets[1], 0, 8);
+    assert_int_equal(kit_load_glb(k, json, t.bytes, t.size), AG_ERROR_UNSUPPORTED);
+    assert_int_equal(
+        kit_load_path(k, kit_path(k, "model.glb"), &(ag_load_options) { .skip_images = true }),
+        AG_OK);
+    const ag_material_desc *m = &k->scene->materials[1];
+    assert_int_equal(k->scene->images_count + k->scene->textures_count, 0);
+    assert_int_equal(m->normal_texture.texture.id + m->emissive_texture.texture.id, 0);
+    kit_near(m->base_color[0], 0.5, 1e-7);
+    kit_near(m->metallic, 0.25, 1e-7);
+    kit_near(m->emissive[0], 0, 0);
+}
+
 static void broken_images(void **state)
 {
     kit *k = *state;
@@ -346,6 +370,7 @@ int main(void)
         cmocka_unit_test(samplers),
         cmocka_unit_test(minification_filters),
         cmocka_unit_test(image_sources),
+        cmocka_unit_test(images_left_out),
         cmocka_unit_test(broken_images),
         cmocka_unit_test(declared_extensions),
     };
