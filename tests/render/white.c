@@ -5,6 +5,7 @@
 #include "physics/color.glsl"
 #include "physics/tonemap.glsl"
 #include "physics/white_balance.glsl"
+#include "render/renderer.h"
 
 enum { SIZE = 24 };
 
@@ -101,10 +102,22 @@ static void the_reference_balances_as_well(void **state)
     ag_scene_destroy(scene);
 }
 
-// A lamp's body and the surroundings are light too; a background of a given colour is not.
-static void all_light_is_balanced(void **state)
+static ag_image *draw(ag_device *device, bool forward, const ag_scene *scene,
+                      const ag_render_options *options)
 {
     const ag_camera_desc camera = stage_flat_camera();
+    ag_renderer *renderer;
+    ag_image *image;
+    OK(ag_renderer_create(device, &renderer));
+    renderer->forward_only = forward;
+    OK(ag_renderer_render(renderer, scene, &camera, options, &image, NULL));
+    ag_renderer_destroy(renderer);
+    return image;
+}
+
+// A lamp's body and the surroundings are light too; a background of a given colour is not.
+static void check_all_light(ag_device *device, bool forward)
+{
     const ag_light_desc lamp = { .kind = AG_LIGHT_SPHERE, .radius_m = 0.5f, .intensity = 0.3f };
     const rgb_matrix m = white_balance(3200, 12);
     const vec3 white = m.red + m.green + m.blue;
@@ -113,7 +126,7 @@ static void all_light_is_balanced(void **state)
     stage_surround(scene, 0.4f, 0.4f, 0.4f);
     OK(ag_scene_add_light(scene, &lamp, &light));
     ag_render_options options = warm(AG_FORMAT_RGBA32F, true);
-    ag_image *image = stage_render(*state, scene, &camera, &options);
+    ag_image *image = draw(device, forward, scene, &options);
     float body = 0.7f * 0.3f / (3.14159265f * 0.25f);
     for (int c = 0; c < 3; c++) {
         assert_close(stage_float(image, 1, 1)[c], 0.7f * 0.4f * white[c], 1e-3f);
@@ -122,11 +135,17 @@ static void all_light_is_balanced(void **state)
     ag_image_destroy(image);
     options.background = AG_BACKGROUND_COLOR;
     options.background_color[2] = 1;
-    image = stage_render(*state, scene, &camera, &options);
+    image = draw(device, forward, scene, &options);
     assert_close(stage_float(image, 1, 1)[0], 0, 0);
     assert_close(stage_float(image, 1, 1)[2], 1, 0);
     ag_image_destroy(image);
     ag_scene_destroy(scene);
+}
+
+static void all_light_is_balanced(void **state)
+{
+    check_all_light(*state, false);
+    check_all_light(*state, true);
 }
 
 static void wrong_ones_are_refused(void **state)
