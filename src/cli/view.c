@@ -1,6 +1,5 @@
 // argand view: the scene in a window.
 #include "commands.h"
-#include "expose.h"
 #include "shot.h"
 #include "viewer/viewer.h"
 
@@ -44,11 +43,6 @@ static ag_status open_document(void *user, const char *input, bool draft, const 
     ag_status status = shot_open(&s, &request, &v->hears);
     if (!status)
         status = shot_compose(&s, AG_FORMAT_RGBA8, &document->camera, &document->look);
-    const eye_request *eye = &request.eye;
-    document->auto_exposure = eye->exposure.automatic;
-    document->metering = eye->metering;
-    if (!status && !eye->exposure.automatic)
-        status = expose(&s, NULL, &document->camera, NULL, &document->look);
     if (!status) {
         document->auto_exposure = request.eye.exposure.automatic;
         document->metering = request.eye.metering;

@@ -191,10 +191,12 @@ ag_progress worker_progress(worker *w)
     return (ag_progress) { .update = update, .user = w };
 }
 
-// The oldest gives way: what matters is said last.
+// The oldest gives way: what matters is said last.  That it was stopped, who stopped it knows.
 static void say(void *user, ag_log_level level, const char *sentence)
 {
     worker *w = user;
+    if (worker_is_stopped(w))
+        return;
     pthread_mutex_lock(&w->lock);
     if (w->count == SENTENCES_MAX) {
         w->first = (w->first + 1) % SENTENCES_MAX;

@@ -23,7 +23,7 @@ bool worker_is_busy(const worker *w);
 // True once after each job has ended, with its status.
 bool worker_collect(worker *w, ag_status *status);
 
-// Ask the job to end early; it is collected as ever.
+// Ask the job to end early; it is collected as ever, and says nothing more.
 void worker_stop(worker *w);
 
 // Wait for the end of the job; it is still to be collected.
