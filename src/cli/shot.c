@@ -22,7 +22,8 @@ static ag_status load_scene(shot *s)
     if (strncmp(input, "demo:", 5) == 0)
         return ag_scene_load_demo(s->scene, input + 5,
                                   s->request->correct ? AG_LOOK_ARGAND : AG_LOOK_TEXT);
-    ag_load_options options = { .progress = console_progress(s->console) };
+    ag_load_options options = { .progress = console_progress(s->console),
+                                .skip_images = s->request->draft };
     return ag_scene_load(s->scene, input, &options);
 }
 

@@ -35,6 +35,7 @@ typedef struct shot_request {
     eye_request eye;
     float bloom;
     int tonemap, transfer, quality, area_lights; // of the enumerations of these names
+    bool draft;                                  // without the file's textures
     bool correct;                                // a built-in scene not as its text has it
     const char *device;
     bool validate, json, quiet, verbose;

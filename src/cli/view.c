@@ -35,7 +35,7 @@ static ag_status open_document(void *user, const char *input, bool draft, const 
     view *v = user;
     shot_request request = v->request->shot;
     request.input = input;
-    (void)draft;
+    request.draft = draft;
     if (strcmp(input, v->request->shot.input) != 0)
         request.camera = NULL; // that of another file
     console_relay(&v->hears, log, progress);
@@ -43,6 +43,8 @@ static ag_status open_document(void *user, const char *input, bool draft, const 
     ag_status status = shot_open(&s, &request, &v->hears);
     if (!status)
         status = shot_compose(&s, AG_FORMAT_RGBA8, &document->camera, &document->look);
+    if (!status)
+        status = ag_scene_bake(s.scene, progress);
     if (!status) {
         document->auto_exposure = request.eye.exposure.automatic;
         document->metering = request.eye.metering;

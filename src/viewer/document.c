@@ -1,6 +1,7 @@
 // The file that is shown: loaded beside, watched, loaded again.
 #include "state.h"
 
+#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,6 +23,39 @@ static bool look_at(const char *path, int64_t *changed_ns, int64_t *size)
     *changed_ns = (int64_t)info.st_mtim.tv_sec * 1000000000 + info.st_mtim.tv_nsec;
     *size = info.st_size;
     return true;
+}
+
+// What lies in a folder and those in it, as far as it is worth looking.
+static int64_t folder_size(const char *path, int depth)
+{
+    enum { LOOKS = 1000 };
+    int64_t sum = 0, changed_ns, size;
+    DIR *folder = opendir(path);
+    const struct dirent *entry;
+    for (int i = 0; folder && i < LOOKS && (entry = readdir(folder)); i++) {
+        char inside[INPUT_MAX];
+        if (entry->d_name[0] == '.' ||
+            snprintf(inside, sizeof inside, "%s/%s", path, entry->d_name) >= INPUT_MAX)
+            continue;
+        if (look_at(inside, &changed_ns, &size))
+            sum += size;
+        if (depth > 0)
+            sum += folder_size(inside, depth - 1); // nothing where it is no folder
+    }
+    if (folder)
+        closedir(folder);
+    return sum;
+}
+
+// A .gltf file has its textures beside it.
+static bool is_large(const char *input, int64_t size)
+{
+    const char *end = strrchr(input, '.'), *slash = strrchr(input, '/');
+    if (!end || strcmp(end, ".gltf") != 0)
+        return size >= DRAFT_BYTES;
+    char folder[INPUT_MAX];
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - input) : 1, slash ? input : ".");
+    return folder_size(folder, 1) >= DRAFT_BYTES;
 }
 
 // ---- Loading -----------------------------------------------------------------
@@ -58,9 +92,7 @@ void document_load(viewer *v, const char *input, bool keeps_view)
     v->watching = (watching) { .next = v->now + watch_s };
     watching *w = &v->watching;
     w->gone = !look_at(l->input, &w->changed_ns, &w->size);
-    const char *end = strrchr(l->input, '.');
-    l->draft =
-        !keeps_view && !w->gone && (w->size >= DRAFT_BYTES || (end && strcmp(end, ".gltf") == 0));
+    l->draft = !keeps_view && !w->gone && is_large(l->input, w->size);
     begin(v);
 }
 
