@@ -90,7 +90,7 @@ typedef enum ag_aov {
     AG_AOV_NORMAL,     // world space, the shading normal towards the eye
     AG_AOV_DEPTH,      // m along the camera's axis, in all three; where nothing is, 0
     AG_AOV_DIRECT,     // exposed radiance: seen itself, or straight from lights by one surface
-    AG_AOV_INDIRECT,   // exposed radiance: the rest; direct + indirect = the picture
+    AG_AOV_INDIRECT,   // exposed radiance: the rest; direct + indirect = the picture before bloom
 } ag_aov;
 // AG_ERROR_ARGUMENT without keep_aovs.
 AG_CHECK ag_status ag_reference_aov(const ag_reference *reference, ag_aov aov, ag_image **image);
