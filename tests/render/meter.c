@@ -80,7 +80,7 @@ static void the_device_counts_as_the_host(void **state)
 {
     for (int forward = 0; forward < 2; forward++) {
         ag_renderer *renderer = open(state, forward);
-        ag_scene *scene = demo("grid"), *blended = demo("materials");
+        ag_scene *scene = demo("lights"), *blended = demo("materials");
         check_scene(renderer, scene, AG_BACKGROUND_ENVIRONMENT);
         check_scene(renderer, scene, AG_BACKGROUND_TRANSPARENT);
         check_scene(renderer, blended, AG_BACKGROUND_TRANSPARENT);
@@ -129,7 +129,7 @@ static void the_reference_meters_the_same(void **state)
     const ag_render_options options = { .width = 64, .height = 48 };
     ag_renderer *renderer = open(state, false);
     const char *names[] = { "spheres", "metals" };
-    for (int i = 0; i < 2; i++) {
+    for (size_t i = 0; i < 2; i++) {
         ag_scene *scene = demo(names[i]);
         float drawn, traced;
         OK(ag_renderer_meter(renderer, scene, NULL, &options, NULL, &drawn));
