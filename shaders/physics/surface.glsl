@@ -5,9 +5,10 @@
 // Energy, with E the albedo of the lobe for F = 1 (from the DFG table), towards wo:
 // - one bounce on the microfacets reflects     single = f0 dfg[0] + f90 dfg[1];
 // - what it loses, 1 - E, bounces on: the series of Fdez-Aguera 2019, eqs. 13-18, after Kulla
-//   & Conty 2017.  They let E of it leave after every bounce; here sqrt(E) leaves after each but
-//   the first: ours, a fit to random walks, within .006 (tests/physics/many_bounces.c).  White
-//   metal reflects all.  The extra light leaves with Lambert's distribution;
+//   & Conty 2017.  They let E of it leave after every bounce and reflect the mean of F; here
+//   sqrt(E) leaves after each but the first, facets are met more aslant, and the extra light
+//   leaves with a distribution that is linear in its direction: ours, fits to random walks
+//   (tests/physics/many_bounces.c).  White metal reflects all;
 // - the base receives what the lobe leaves: 1 - (albedo of the whole lobe), as Cycles and
 //   other path tracers do.  It depends on wo alone: the sum is not reciprocal, its parts are.
 // The furnace closes exactly, as far as the table does.
@@ -72,8 +73,10 @@ STRUCT(surface_material) {
 
 // What lights need to know, seen from one direction.
 STRUCT(surface) {
-    vec3 lambert; // albedo of all that leaves with Lambert's distribution whatever the light
+    vec3 lambert; // albedo of the base, if it leaves with Lambert's distribution
     vec3 single;  // albedo of the lobe, first bounce
+    vec3 bounced; // the same, all others
+    vec2 lean;    // of their light: upwards, and forwards
     vec3 f0;
     real f90;
     real a2; // alpha^2; anisotropic: along the tangent
@@ -131,9 +134,17 @@ static inline vec3 surface_lobe(surface s, real plain, real grazing)
     return f;
 }
 
-static inline vec3 surface_fresnel_mean(surface s)
+// The mean of (1 - v.h)^5 after the first bounce: light that was caught is low and meets facets
+// aslant; over the hemisphere it is 1/21.  A fit to random walks.
+static inline real surface_aslant(real alpha)
 {
-    vec3 f = fresnel_schlick_mean(s.f0, s.f90);
+    return 0.284f - 0.239f * alpha;
+}
+
+static inline vec3 surface_fresnel_again(surface s, real alpha)
+{
+    real w = surface_aslant(alpha);
+    vec3 f = s.f0 * (1.0f - w) + vec3(s.f90, s.f90, s.f90) * w;
     if ((s.model & SURFACE_FRESNEL) == SURFACE_F82)
         f = f - s.dip / 126.0f;
     if ((s.model & SURFACE_FRESNEL) == SURFACE_CONDUCTOR)
@@ -166,10 +177,17 @@ static inline vec3 surface_passed(surface s, real VoH)
     return one;
 }
 
-// The BRDF of all that is not the lobe, 1/sr.
+// The BRDF of further bounces times pi, of their albedo: 1 on average over the hemisphere.  Linear
+// in the light's direction, and so right for lights of extent by their mean direction.
+static inline real surface_bounced_shape(surface s, real NoV, real NoL, real LoV)
+{
+    return 1.0f + s.lean[0] * (NoL - 2.0f / 3.0f) - s.lean[1] * (LoV - NoL * NoV);
+}
+
+// The BRDF of all that is not the first bounce of the lobe, 1/sr.
 static inline vec3 surface_base(surface s, real NoV, real NoL, real LoV, real VoH)
 {
-    vec3 f = diffuse_lambert(s.lambert);
+    vec3 f = diffuse_lambert(s.lambert + surface_bounced_shape(s, NoV, NoL, LoV) * s.bounced);
     if (surface_has_base(s.model)) {
         uint diffuse = s.model & SURFACE_DIFFUSE;
         vec3 base = diffuse_lambert(s.base);
@@ -251,11 +269,22 @@ static inline real surface_bounced(real mean, real lost)
 
 // What of the base is seen, by the lobe's albedo: by the greatest of its channels, so that a
 // coloured lobe does not give the base the opposite colour (KHR_materials_specular).
-static inline real surface_left_by(vec3 f0, real f90, vec2 dfg, real lost)
+static inline real surface_left_by(vec3 f0, real f90, vec2 dfg, real lost, real alpha)
 {
     real f = max(max(f0[0], f0[1]), f0[2]);
-    real mean = f * (20.0f / 21.0f) + f90 * (1.0f / 21.0f);
+    real mean = mix(f, f90, surface_aslant(alpha));
     return 1.0f - (f * dfg[0] + f90 * dfg[1]) * (1.0f + surface_bounced(mean, lost));
+}
+
+// The first moments of the light that leaves after further bounces: at alpha below .5 it goes on
+// low and forwards, above it is round and a little upright.  Fits to random walks, held where
+// the distribution would be negative.
+static inline vec2 surface_lean(real alpha, real NoV)
+{
+    real smooth_by = 1.0f - alpha;
+    real s3 = smooth_by * smooth_by * smooth_by;
+    real up = NoV * (1.05f + 0.68f * smooth_by) - 0.25f - 6.2f * s3 * smooth_by;
+    return vec2(max(up, -1.6f), min(3.34f * s3, 1.2f));
 }
 
 // The base where it is not part of `lambert`.
@@ -280,7 +309,7 @@ static inline surface surface_blend(surface s, real reflectiveness)
     s.dip = reflectiveness * s.dip;
     s.conductor = reflectiveness * s.conductor;
     s.single = reflectiveness * s.single;
-    s.lambert = reflectiveness * s.lambert;
+    s.bounced = reflectiveness * s.bounced;
     return s;
 }
 
@@ -306,22 +335,22 @@ static inline surface surface_from_metallic_roughness(surface_material m, real N
     if ((m.model & SURFACE_SINGLE_BOUNCE) != 0u ||
         (m.model & SURFACE_DISTRIBUTION) == SURFACE_BLINN)
         lost = 0.0f;
-    vec3 mean = surface_fresnel_mean(s);
+    vec3 mean = surface_fresnel_again(s, alpha);
     s.single = surface_lobe(s, dfg[0], dfg[1]);
-    s.lambert = s.single * vec3(surface_bounced(mean[0], lost), surface_bounced(mean[1], lost),
+    s.bounced = s.single * vec3(surface_bounced(mean[0], lost), surface_bounced(mean[1], lost),
                                 surface_bounced(mean[2], lost));
+    s.lean = surface_lean(alpha, NoV);
 
     uint layering = m.model & SURFACE_LAYERING;
     real weight = 1.0f - m.metallic;
     if (layering == SURFACE_LAYERED_BY_ALBEDO)
-        weight = weight * surface_left_by(f0, m.specular, dfg, lost);
+        weight = weight * surface_left_by(f0, m.specular, dfg, lost, alpha);
     if (layering == SURFACE_BLENDED) {
         weight = 1.0f - m.reflectiveness;
         s = surface_blend(s, m.reflectiveness);
     }
     s = surface_put_base(s, m, f0, NoV, weight);
-    if (!surface_has_base(m.model))
-        s.lambert = m.base_color * weight + s.lambert;
+    s.lambert = surface_has_base(m.model) ? vec3(0.0f, 0.0f, 0.0f) : m.base_color * weight;
     return s;
 }
 
@@ -380,7 +409,8 @@ static inline vec3 surface_direct(surface s, vec3 n, vec3 wo, vec3 wi)
 // What it reflects of diffuse light from everywhere.
 static inline vec3 surface_albedo(surface s)
 {
-    return surface_has_base(s.model) ? s.lambert + s.base_albedo : s.lambert;
+    vec3 albedo = s.lambert + s.bounced;
+    return surface_has_base(s.model) ? albedo + s.base_albedo : albedo;
 }
 
 // Radiance towards wo under image light.  `irradiance` is divided by pi; `prefiltered` is

@@ -138,7 +138,7 @@ static inline real physics_case(uint id, vec4 u)
     case 10u: return microfacet_g1(0.01f + 0.99f * u[0], alpha * alpha);
     case 11u: return case_mark(diffuse_lambert(color));
     case 12u: return surface_cosine(wo, wi);
-    case 13u: return case_mark(case_surface(u).lambert);
+    case 13u: return case_mark(case_surface(u).lambert + case_surface(u).bounced);
     case 14u: return case_mark(case_surface(u).single);
     case 15u: return case_mark(case_surface(u).f0) + case_surface(u).f90 + case_surface(u).a2;
     case 16u: return case_mark(surface_direct(case_surface(u), up, wo, wi));

@@ -20,6 +20,8 @@ void main()
     surface s;
     s.model = 0u;
     s.lambert = vec3(.1);
+    s.bounced = vec3(.01);
+    s.lean = vec2(-.5, .5);
     s.f0 = vec3(.04);
     s.f90 = 1;
     s.a2 = .1;

@@ -466,7 +466,7 @@ static void rough_diffuse_furnace(void **state)
         vec3 one = vec3(1, 1, 1);
         assert_near((double)surface_environment(s, one, one)[0], 1, 1e-4);
         // The base alone under lights, against what it is said to be.
-        s.f0 = s.lambert = vec3(0, 0, 0);
+        s.f0 = s.lambert = s.bounced = vec3(0, 0, 0);
         s.f90 = 0;
         double sum = 0;
         enum { STEPS = 100 };
@@ -513,8 +513,8 @@ static void image_light_has_the_mean_of_fresnel(void **state)
     }
 }
 
-// Every part is: the weights are those of one surface here.  Blinn's lobe is of the light and not
-// of the irradiance.
+// Every part is: the weights are those of one surface here.  Not so further bounces, whose
+// direction is a fit, nor Blinn's lobe, which is of the light and not of the irradiance.
 static void parts_are_reciprocal(void **state)
 {
     (void)state;
@@ -526,6 +526,7 @@ static void parts_are_reciprocal(void **state)
         surface_material m = plain(model);
         m.metallic = 0.5f;
         surface s = surface_from_metallic_roughness(m, 0.6f, vec2(0.7f, 0.1f));
+        s.bounced = vec3(0, 0, 0);
         for (uint i = 0; i < 20; i++) {
             vec3 a, b;
             pair(i, 20, &a, &b);

@@ -54,7 +54,7 @@ static surface make(const choice *c, float roughness, float NoV)
     };
     surface s = surface_from_metallic_roughness(m, NoV, vec2(0.7f, 0.02f));
     if ((c->model & SURFACE_DIFFUSE) != 0) // the base alone
-        s.f0 = s.lambert = vec3(0, 0, 0);
+        s.f0 = s.lambert = s.bounced = vec3(0, 0, 0);
     return s;
 }
 
