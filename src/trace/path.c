@@ -14,7 +14,7 @@
 static const float BRIGHTEST = 60000;
 
 // Surfaces before Russian roulette.
-enum { CERTAIN = 2 };
+enum { CERTAIN = 3 };
 
 // Light that arrives if nothing stands in its way.
 typedef struct pending {
@@ -277,7 +277,8 @@ static bool survives(path *p)
     float dice = sampler_number(&p->dice);
     if (p->scattered < CERTAIN)
         return true;
-    float chance = min(greatest(p->throughput), 0.95f);
+    // By the root: what a dark surface has left may yet find a lamp in a mirror.
+    float chance = min(sqrtf(greatest(p->throughput)), 0.95f);
     if (dice >= chance)
         return false;
     p->throughput = p->throughput / chance;
