@@ -180,6 +180,22 @@ static ag_status add_instance(emitters *e, listing *l, uint32_t instance)
     return status;
 }
 
+// guides[k] = the last item that begins at or before the share k / count of the sum.
+static ag_status set_guides(emitters *e)
+{
+    size_t item = 0;
+    e->guides = malloc((e->count + 1) * sizeof *e->guides);
+    if (!e->guides)
+        return no_memory(e->world);
+    for (size_t k = 0; e->count && k <= e->count; k++) {
+        float from = e->sums[e->count] * ((float)k / (float)e->count);
+        while (item < e->count - 1 && e->sums[item + 1] <= from)
+            item++;
+        e->guides[k] = (uint32_t)item;
+    }
+    return AG_OK;
+}
+
 ag_status emitters_init(const world *w, emitters *e)
 {
     *e = (emitters) { .world = w };
@@ -191,6 +207,8 @@ ag_status emitters_init(const world *w, emitters *e)
     for (size_t i = 0; i < w->instance_count && !status; i++)
         if (shines(&w->instances[i]))
             status = add_instance(e, &l, (uint32_t)i);
+    if (!status)
+        status = set_guides(e);
     if (status)
         emitters_finish(e);
     return status;
@@ -203,17 +221,23 @@ void emitters_finish(emitters *e)
     free(e->where);
     free(e->all);
     free(e->sums);
+    free(e->guides);
     *e = (emitters) { 0 };
 }
 
 // ---- Drawing ---------------------------------------------------------------------
 
-static size_t find(const float *sums, size_t count, float x)
+// The item at a share of the sum.  Guides are rounded as the share is not: searched from one
+// step before.
+static size_t find(const emitters *e, float share)
 {
-    size_t low = 0, high = count;
+    float x = share * e->sums[e->count];
+    size_t step = (size_t)(share * (float)e->count);
+    size_t low = e->guides[step ? step - 1 : 0];
+    size_t high = step + 2 <= e->count ? e->guides[step + 2] + 1 : e->count;
     while (high - low > 1) {
         size_t middle = (low + high) / 2;
-        if (sums[middle] <= x)
+        if (e->sums[middle] <= x)
             low = middle;
         else
             high = middle;
@@ -240,7 +264,7 @@ bool emitters_sample(const emitters *e, vec3 from, float pick, vec2 u, emitter_f
 {
     if (!e->count)
         return false;
-    size_t index = find(e->sums, e->count, pick * e->sums[e->count]);
+    size_t index = find(e, pick);
     const emitter *t = &e->all[index];
     vec2 at = triangle_point(u);
     vec3 to = (1 - at[0] - at[1]) * t->a + at[0] * t->b + at[1] * t->c - from;

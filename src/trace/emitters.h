@@ -15,6 +15,7 @@ typedef struct emitters {
     size_t count;
     emitter *all;     // those on which something shines, instance by instance
     float *sums;      // [count + 1], running, of power
+    uint32_t *guides; // [count + 1]: where even steps through the sum begin
     uint32_t **where; // [instances][triangles]: in `all`, UINT32_MAX: it is dark; NULL: all are
 } emitters;
 
