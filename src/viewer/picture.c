@@ -83,6 +83,18 @@ static void take_times(viewer *v, const paint_result *result)
         v->ms_per_mpx = result->ms / mpx;
 }
 
+// Of pictures in a row, while something moves, none is worth a sentence.
+static void tell_view(const viewer *v)
+{
+    const ag_camera_desc *c = &v->ordered_camera;
+    if (v->rough || v->moving || v->setup->frames)
+        return;
+    viewer_tell(v, "shown: %u × %u px, from %g %g %g m to %g %g %g m, %s", v->shown.width,
+                v->shown.height, (double)c->position[0], (double)c->position[1],
+                (double)c->position[2], (double)c->target[0], (double)c->target[1],
+                (double)c->target[2], c->height_m > 0 ? "orthographic" : "perspective");
+}
+
 static void lose_device(viewer *v, ag_status status)
 {
     if (status != AG_ERROR_DEVICE || ++v->losses == DEVICE_ATTEMPTS ||
@@ -118,6 +130,7 @@ void picture_collect(viewer *v)
         see(v, result.ev100);
     take_times(v, &result);
     count_frame(v, &result);
+    tell_view(v);
     if (result.kept)
         actions_keep(v, result.kept);
 }
@@ -137,13 +150,19 @@ static double choose_scale(const viewer *v, uint32_t width, uint32_t height)
     return scales[i];
 }
 
+static uint32_t scaled_px(uint32_t size, double scale)
+{
+    uint32_t px = (uint32_t)(size * scale + 0.5);
+    return px ? px : 1;
+}
+
 static void set_options(viewer *v, paint_order *o, uint32_t width, uint32_t height)
 {
     double scale = choose_scale(v, width, height);
     v->rough = scale < 1;
     o->options = v->document.look;
-    o->options.width = (uint32_t)(width * scale + 0.5);
-    o->options.height = (uint32_t)(height * scale + 0.5);
+    o->options.width = scaled_px(width, scale);
+    o->options.height = scaled_px(height, scale);
     o->options.exposure = v->eye.exposure;
     o->meters = v->meters && v->eye.automatic;
     o->metering = v->eye.metering;
@@ -289,8 +308,10 @@ static void take_truth(viewer *v, const trace_result *result)
     t->version++;
     t->samples = result->samples;
     t->noise = result->noise;
-    if (result->compared)
+    if (result->compared) {
         t->flip = result->flip;
+        viewer_tell(v, "FLIP to the reference of %u samples: %.4f", t->samples, (double)t->flip);
+    }
     v->layers_stale = true;
 }
 

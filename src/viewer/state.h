@@ -145,6 +145,9 @@ typedef struct viewer {
 __attribute__((format(printf, 3, 4))) void viewer_say(viewer *v, bool alarm, const char *format,
                                                       ...);
 
+// Say something to the log alone.
+__attribute__((format(printf, 2, 3))) void viewer_tell(const viewer *v, const char *format, ...);
+
 // What is seen will be another picture: the camera, the scene or the look has changed.
 void viewer_redraw(viewer *v);
 

@@ -25,6 +25,18 @@ void viewer_say(viewer *v, bool alarm, const char *format, ...)
         log->write(log->user, level, v->message.text);
 }
 
+void viewer_tell(const viewer *v, const char *format, ...)
+{
+    char sentence[WORKER_SENTENCE_MAX];
+    const ag_log *log = v->setup->log;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(sentence, sizeof sentence, format, args);
+    va_end(args);
+    if (log && log->write && v->setup->level >= AG_LOG_INFO)
+        log->write(log->user, AG_LOG_INFO, sentence);
+}
+
 void viewer_redraw(viewer *v)
 {
     v->picture_stale = true;
