@@ -1,7 +1,8 @@
 #!/bin/sh
 # Run a command with a display of its own:  with_display.sh COMMAND [ARGUMENT...]
 #
-# $ARGAND_TEST_SCREEN is then what the display shows, an XWD file that is always up to date.
+# $ARGAND_TEST_SCREEN is then what the display shows, an XWD file that is always up to date;
+# $ARGAND_TEST_DISPLAY is the display's process.
 set -eu
 unset WAYLAND_DISPLAY
 
@@ -16,7 +17,7 @@ finish() {
 trap finish EXIT
 trap 'exit 143' INT TERM
 
-Xvfb -displayfd 3 -screen 0 1600x1000x24 -fbdir "$folder" -nolisten tcp -noreset \
+Xvfb -displayfd 3 -screen 0 800x500x24 -fbdir "$folder" -nolisten tcp -noreset \
     3>"$folder/number" 2>"$folder/log" &
 server=$!
 for attempt in $(seq 300); do
@@ -31,7 +32,8 @@ if [ ! -s "$folder/number" ]; then
 fi
 DISPLAY=:$(cat "$folder/number")
 ARGAND_TEST_SCREEN=$folder/Xvfb_screen0
-export DISPLAY XDG_RUNTIME_DIR ARGAND_TEST_SCREEN
+ARGAND_TEST_DISPLAY=$server
+export DISPLAY XDG_RUNTIME_DIR ARGAND_TEST_SCREEN ARGAND_TEST_DISPLAY
 
 "$@" & # beside it, so that a signal reaches us at once
 command=$!

@@ -22,6 +22,7 @@ argand = sys.argv[1]
 here = tempfile.mkdtemp(prefix="argand-viewer-")
 
 
+display = os.environ["ARGAND_TEST_DISPLAY"]
 opened = []  # viewers, of the test that runs
 
 
@@ -48,6 +49,18 @@ def until(done, what, patience=PATIENCE_S):
 def xdotool(*words):
     done = subprocess.run(["xdotool", *map(str, words)], capture_output=True, text=True)
     return done.stdout.split()
+
+
+def runs(folder):
+    for task in os.listdir(folder):
+        try:
+            with open(f"{folder}/{task}/stat") as file:
+                state = file.read().rsplit(")", 1)[1].split()[0]
+        except OSError:  # it has ended
+            continue
+        if state not in "SI":
+            return True
+    return False
 
 
 # ---- Pictures --------------------------------------------------------------------
@@ -145,14 +158,18 @@ def rendered(*options):
 class Viewer:
     """`argand view`, with nothing written over the picture unless `words`."""
 
-    def __init__(self, *options, size=(240, 160), words=False, folder=here, **environment):
-        self.size, self.lines, self.out, self.folder = size, [], "", folder
+    def __init__(self, *options, size=(240, 160), words=False, preload=(), **environment):
+        self.size, self.lines, self.out = size, [], ""
         env = dict(os.environ, **environment)
+        # In the sanitized build leaks are found, too; those of the validation layer are its own.
+        env["LD_PRELOAD"] = ":".join((*preload, os.environ["ARGAND_TEST_KEEP_LOADED"]))
+        leaks = 0 if "--validate" in options else 1
+        env["ASAN_OPTIONS"] = f"detect_leaks={leaks}:verify_asan_link_order=0"
         if not words:
             env["ARGAND_FONTS"] = "/nonexistent"
         look = ["--size", f"{size[0]}x{size[1]}", "--verbose"]
         self.process = subprocess.Popen(
-            [argand, "view", *map(str, options), *look], env=env, cwd=folder, text=True,
+            [argand, "view", *map(str, options), *look], env=env, cwd=here, text=True,
             stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         )
         opened.append(self)
@@ -219,16 +236,8 @@ class Viewer:
         return Picture(width, height, rgb)
 
     def works(self):
-        """Whether any of its threads runs."""
-        folder = f"/proc/{self.process.pid}/task"
-        for task in os.listdir(folder):
-            try:
-                state = open(f"{folder}/{task}/stat").read().rsplit(")", 1)[1].split()[0]
-            except OSError:
-                continue
-            if state not in "SI":
-                return True
-        return False
+        """Whether any thread runs, of it or of its display."""
+        return any(runs(f"/proc/{pid}/task") for pid in (self.process.pid, display))
 
     def rest(self):
         """Wait until it has nothing more to do; what it shows then."""
@@ -237,7 +246,7 @@ class Viewer:
             nonlocal quiet
             check(self.process.poll() is None, "the viewer has ended")
             quiet = 0 if self.works() else quiet + 1
-            return quiet >= 20
+            return quiet >= 13
 
         until(still, "rest")
         return self.picture()
@@ -255,14 +264,12 @@ class Viewer:
 
     def key(self, *names):
         """Press keys; what is shown at rest."""
-        for name in names:
-            xdotool("key", name)
+        xdotool("key", *names)
         return self.rest()
 
     def says(self, pattern, *names):
         since = self.mark()
-        for name in names:
-            xdotool("key", name)
+        xdotool("key", *names)
         return self.heard(pattern, since)
 
     def wheel(self, steps, *held):
@@ -388,9 +395,9 @@ def run(*tests):
         try:
             test()
             verdict = "ok"
-        except Failed as failure:
+        except Exception as failure:
             failed += 1
-            verdict = f"FAILED: {failure}"
+            verdict = f"FAILED: {failure!r}"
             print("\n".join(line for viewer in opened for line in viewer.lines[-20:]))
         for viewer in opened:
             if viewer.process.poll() is None:

@@ -102,9 +102,9 @@ def the_window_fills_the_display():
     def size():
         return xdotool("getwindowgeometry", window)[-1]
     xdotool("key", "F11")
-    until(lambda: size() == "1600x1000", "full screen")
-    full = v.rest() and v.picture((1600, 1000))
-    wanted = rendered(colors, *PLAIN, "--size", "1600x1000")
+    until(lambda: size() == "800x500", "full screen")
+    full = v.rest() and v.picture((800, 500))
+    wanted = rendered(colors, *PLAIN, "--size", "800x500")
     check(full == wanted, "another picture on full screen")
     xdotool("key", "F11")
     until(lambda: size() == "240x160", "the window")

@@ -7,7 +7,6 @@ import time
 from kit import *
 
 scene = cube(os.path.join(here, "cube.gltf"))
-shim = sys.argv[3] if len(sys.argv) > 3 else os.environ["ARGAND_TEST_SHIM"]
 
 
 def refused(code, sentence, *options, **environment):
@@ -73,12 +72,8 @@ def fail_once(path, call, code):
 
 def a_lost_device_is_opened_again():
     fault = os.path.join(here, "fault")
-    shimmed = {
-        "LD_PRELOAD": shim,
-        "ARGAND_TEST_FAULT": fault,
-        "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0",
-    }
-    v = Viewer(scene, *PLAIN, "--validate", **shimmed)
+    v = Viewer(scene, *PLAIN, "--validate", preload=(os.environ["ARGAND_TEST_FAULTS"],),
+               ARGAND_TEST_FAULT=fault)
     v.start = v.shown()
     for call, code in (("vkQueueSubmit2", -4), ("vkQueuePresentKHR", -1000000000)):
         since = v.mark()
