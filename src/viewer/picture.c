@@ -328,7 +328,7 @@ void picture_follow_truth(viewer *v)
     if (tracer_collect(v->tracer, &status, &result))
         take_truth(v, &result);
     bool rests = v->now - v->moved >= rest_s && !v->picture_stale && !v->rough;
-    if (t->stale && (t->picture || t->beside))
+    if (t->stale && !worker_is_busy(w) && (t->picture || t->beside)) // else it reads them
         drop_truth(v);
     if (!t->wanted || worker_is_busy(w) || !v->document.scene || !rests || adapts(v) || v->first ||
         v->loading.ready || (!t->stale && t->samples >= SAMPLES_ENOUGH))
