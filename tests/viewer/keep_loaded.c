@@ -1,4 +1,5 @@
-// Libraries stay loaded to the end (by LD_PRELOAD): what Vulkan's driver still holds then is no leak.
+// Libraries stay loaded to the end (by LD_PRELOAD): what Vulkan's driver still holds then is not
+// a leak.
 int dlclose(void *library);
 
 int dlclose(void *library)

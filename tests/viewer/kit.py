@@ -180,6 +180,9 @@ class Viewer:
         for line in self.process.stderr:
             self.lines.append(line.rstrip("\n"))
 
+    def lives(self):
+        check(self.process.poll() is None, f"it has ended with {self.process.returncode}")
+
     def ended(self):
         """The exit code, once it has ended by itself."""
         until(lambda: self.process.poll() is not None, "the end of the viewer")
@@ -190,7 +193,7 @@ class Viewer:
     def window(self):
         """Its window, once it is there and has the keys."""
         def found():
-            check(self.process.poll() is None, "the viewer has ended")
+            self.lives()
             ids = xdotool("search", "--onlyvisible", "--class", "argand")
             return ids and xdotool("getwindowfocus") == ids[:1] and ids[0]
 
@@ -244,7 +247,7 @@ class Viewer:
         quiet = 0
         def still():
             nonlocal quiet
-            check(self.process.poll() is None, "the viewer has ended")
+            self.lives()
             quiet = 0 if self.works() else quiet + 1
             return quiet >= 13
 
@@ -398,7 +401,7 @@ def run(*tests):
         except Exception as failure:
             failed += 1
             verdict = f"FAILED: {failure!r}"
-            print("\n".join(line for viewer in opened for line in viewer.lines[-20:]))
+            print("\n".join(line for viewer in opened for line in viewer.lines[-40:]))
         for viewer in opened:
             if viewer.process.poll() is None:
                 viewer.process.kill()
