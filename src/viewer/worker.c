@@ -31,9 +31,11 @@ struct worker {
     worker_stage stage;
 };
 
+static _Thread_local worker *running; // by this thread
+
 static void *work(void *argument)
 {
-    worker *w = argument;
+    worker *w = running = argument;
     pthread_mutex_lock(&w->lock);
     for (;;) {
         while (!w->job && !w->quits)
@@ -191,10 +193,11 @@ ag_progress worker_progress(worker *w)
     return (ag_progress) { .update = update, .user = w };
 }
 
+// A scene keeps the log of the loader, whoever reads it: it is the thread that says something.
 // The oldest gives way: what matters is said last.  That it was stopped, who stopped it knows.
 static void say(void *user, ag_log_level level, const char *sentence)
 {
-    worker *w = user;
+    worker *w = running ? running : user;
     if (worker_is_stopped(w))
         return;
     pthread_mutex_lock(&w->lock);

@@ -96,6 +96,7 @@ def movement_begins_anew():
     line_comes(v, 120)
     xdotool("key", "r")
     v.rest()
+    check(not v.said("stopped"), "that a movement ends the tracing is told")
     v.close()
 
 
