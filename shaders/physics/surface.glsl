@@ -331,7 +331,7 @@ static inline surface surface_from_metallic_roughness(surface_material m, real N
     s = surface_choose_distribution(s, m);
     dfg = surface_choose_dfg(s, m, NoV, dfg);
 
-    real lost = 1.0f - dfg[0] - dfg[1];
+    real lost = max(1.0f - dfg[0] - dfg[1], 0.0f); // the table may have a little too much
     if ((m.model & SURFACE_SINGLE_BOUNCE) != 0u ||
         (m.model & SURFACE_DISTRIBUTION) == SURFACE_BLINN)
         lost = 0.0f;

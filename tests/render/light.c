@@ -350,7 +350,8 @@ static void textures_feed_their_inputs(void **state)
     m.metallic_roughness_texture.texture = texel(scene, 0, 0, 255, 0); // white metal
     assert_close(in_white_world(*state, scene, &m), 1, 0.01f);
 
-    // Rough and white, face on: plastic sends nearly all of E / pi back, metal less.
+    // Rough and white, face on: plastic sends nearly all of E / pi back; metal 1.145 times, by the
+    // random walk of tests/physics/many_bounces.c: what bounces on leaves upright.
     for (int metal = 0; metal < 2; metal++) {
         scene = stage_dark();
         m.metallic_roughness_texture.texture = texel(scene, 0, 255, metal ? 255 : 0, 0);
@@ -359,7 +360,7 @@ static void textures_feed_their_inputs(void **state)
                                      .direction = { 0, 0, -1 },
                                      .intensity = PI_F });
         float value = center(*state, scene);
-        assert_true(metal ? value < 0.96f : value > 0.98f);
+        assert_close(value, metal ? 1.145f : 1, metal ? 0.04f : 0.02f);
         ag_scene_destroy(scene);
     }
 
