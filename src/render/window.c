@@ -207,6 +207,14 @@ static ag_status bring_layers(ag_window *w, const ag_show_options *show)
     return status;
 }
 
+static void drop_layers(ag_window *w)
+{
+    for (int i = 0; i < AG_LAYERS_MAX; i++) {
+        gpu_image_destroy(w->renderer->device, &w->layers[i].image);
+        w->layers[i].version = 0;
+    }
+}
+
 // ---- Drawing -----------------------------------------------------------------
 
 static void barrier_to_window(const ag_window *w, gpu_access before, gpu_access after)
@@ -374,8 +382,9 @@ static ag_status present(ag_window *w, const ag_show_options *show)
 {
     gpu_device *device = w->renderer->device;
     ag_status status = check_layers(w, show);
-    if (!status)
-        status = gpu_commands_begin(device, &w->commands); // waits for the last time
+    if (status)
+        return status;
+    status = gpu_commands_begin(device, &w->commands); // waits for the last time
     if (!status)
         status = bring_layers(w, show);
     bool ready = false;
@@ -388,6 +397,7 @@ static ag_status present(ag_window *w, const ag_show_options *show)
     if (!status)
         return gpu_swapchain_present(device, &w->swapchain, &w->commands);
     w->swapchain.stale = true; // an image may have been acquired in vain
+    drop_layers(w);            // nothing was brought to them
     return status;
 }
 
