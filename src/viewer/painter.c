@@ -111,8 +111,8 @@ static ag_status paint_job(void *context, worker *self)
     p->order.options.progress = worker_progress(self);
     p->order.show.layers = p->order.layers;
     ag_status status = paint(p);
-    if (status == AG_ERROR_DEVICE)
-        close_device(p);
+    if (status == AG_ERROR_DEVICE || !p->window)
+        close_device(p); // lost, or opened halfway
     p->result.ms = (screen_time() - start) * 1e3;
     return status;
 }
