@@ -109,10 +109,8 @@ static void on_key(GLFWwindow *window, int code, int scancode, int how, int mods
 static void on_character(GLFWwindow *window, unsigned character)
 {
     screen *s = glfwGetWindowUserPointer(window);
-    unsigned modifiers = modifiers_now(s);
-    if (modifiers & (KEY_CTRL | KEY_ALT))
-        return; // on_key has told
-    push(s, (screen_event) { SCREEN_KEY, .key = capital(character), .modifiers = modifiers });
+    unsigned shift = modifiers_now(s) & KEY_SHIFT; // AltGr stands for an Alt that is none
+    push(s, (screen_event) { SCREEN_KEY, .key = capital(character), .modifiers = shift });
 }
 
 static void on_button(GLFWwindow *window, int button, int how, int mods)
