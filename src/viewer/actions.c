@@ -55,6 +55,14 @@ static bool can_save(viewer *v, const char *ending)
     return false;
 }
 
+static void begin_save(viewer *v)
+{
+    if (v->drafted)
+        viewer_say(v, true, "%s is not yet there with all its textures", v->shown.file);
+    else if (can_save(v, ".glb"))
+        worker_start(v->saver, save_scene, v);
+}
+
 void actions_keep(viewer *v, ag_image *picture)
 {
     if (v->shoots && can_save(v, ".png")) {
@@ -277,10 +285,7 @@ void actions_do(viewer *v, action a)
     case ACTION_STATUS: v->shown.status = !v->shown.status; break;
     case ACTION_FULL_SCREEN: screen_toggle_full(v->screen); break;
     case ACTION_SCREENSHOT: v->shoots = v->document.scene; break;
-    case ACTION_SAVE:
-        if (can_save(v, ".glb"))
-            worker_start(v->saver, save_scene, v);
-        break;
+    case ACTION_SAVE: begin_save(v); break;
     case ACTION_RELOAD: document_load(v, v->loading.input, true); break;
     case ACTION_ESCAPE: escape(v); break;
     case ACTION_QUIT: v->quits = true; break;

@@ -79,6 +79,7 @@ void document_load(viewer *v, const char *input, bool keeps_view)
 {
     loading *l = &v->loading;
     if (worker_is_busy(l->worker)) {
+        l->next_keeps_view = keeps_view && strcmp(input, l->input) == 0 && l->keeps_view;
         snprintf(l->next, sizeof l->next, "%s", input);
         worker_stop(l->worker);
         return;
@@ -89,7 +90,7 @@ void document_load(viewer *v, const char *input, bool keeps_view)
     l->keeps_view = keeps_view;
     if (input != l->input)
         snprintf(l->input, sizeof l->input, "%s", input);
-    v->watching = (watching) { .next = v->now + watch_s };
+    v->watching = (watching) { .next = is_file(l->input) ? v->now + watch_s : 0 };
     watching *w = &v->watching;
     w->gone = !look_at(l->input, &w->changed_ns, &w->size);
     l->draft = !keeps_view && !w->gone && is_large(l->input, w->size);
@@ -134,7 +135,9 @@ static void swap(viewer *v)
     v->shown.scene = ag_scene_summarize(v->document.scene);
     if (!keeps)
         set_view(v, &v->document);
+    v->drafted = l->draft;
     v->picked = v->hovered = (selection) { 0 };
+    v->change = (change) { 0 };
     v->first = true;
     set_title(v);
     viewer_redraw(v);
@@ -160,7 +163,7 @@ void document_collect(viewer *v)
             char next[INPUT_MAX];
             memcpy(next, l->next, sizeof next);
             l->next[0] = 0;
-            document_load(v, next, false);
+            document_load(v, next, l->next_keeps_view);
         }
     }
     if (l->ready && viewer_can_edit(v))
@@ -173,9 +176,11 @@ void document_collect(viewer *v)
 void document_watch(viewer *v)
 {
     watching *w = &v->watching;
-    if (v->now < w->next || worker_is_busy(v->loading.worker) || !is_file(v->loading.input))
+    if (w->next <= 0 || v->now < w->next)
         return;
     w->next = v->now + watch_s;
+    if (worker_is_busy(v->loading.worker))
+        return;
     int64_t changed_ns, size;
     if (!look_at(v->loading.input, &changed_ns, &size)) {
         if (!w->gone)

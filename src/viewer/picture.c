@@ -12,6 +12,11 @@ static const double settled_ev = 0.004;
 static const float split_width = 2; // px
 static const float backdrop[3] = { 0.11f, 0.115f, 0.125f };
 
+static bool rests(const viewer *v)
+{
+    return v->now >= v->moved + rest_s;
+}
+
 // ---- The eye -----------------------------------------------------------------
 
 static bool adapts(const viewer *v)
@@ -100,14 +105,14 @@ static void lose_device(viewer *v, ag_status status)
     if (status != AG_ERROR_DEVICE || ++v->losses == DEVICE_ATTEMPTS ||
         v->report->first_pixels_ms <= 0) {
         v->failed = status;
-        v->quits = v->report->first_pixels_ms <= 0 || status == AG_ERROR_DEVICE;
+        v->quits = v->report->first_pixels_ms <= 0 || status == AG_ERROR_DEVICE || v->setup->frames;
         return;
     }
     viewer_say(v, true, "the device was lost and is opened again");
     viewer_redraw(v);
 }
 
-void picture_collect(viewer *v)
+static void collect_painted(viewer *v)
 {
     ag_status status;
     paint_result result;
@@ -135,6 +140,41 @@ void picture_collect(viewer *v)
         actions_keep(v, result.kept);
 }
 
+static void take_truth(viewer *v, const trace_result *result)
+{
+    truth *t = &v->truth;
+    if (!result->picture || t->stale || !t->wanted) {
+        ag_image_destroy(result->picture);
+        return;
+    }
+    ag_image_destroy(t->picture);
+    t->picture = result->picture;
+    t->version++;
+    t->samples = result->samples;
+    t->noise = result->noise;
+    if (result->compared) {
+        t->flip = result->flip;
+        viewer_tell(v, "FLIP to the reference of %u samples: %.4f", t->samples, (double)t->flip);
+    }
+    v->layers_stale = true;
+}
+
+static void collect_traced(viewer *v)
+{
+    ag_status status;
+    trace_result result;
+    if (worker_is_busy(painter_worker(v->painter)) || !tracer_collect(v->tracer, &status, &result))
+        return; // the painter may be reading the last one
+    take_truth(v, &result);
+    v->truth.wanted &= !status; // it has been said why
+}
+
+void picture_collect(viewer *v)
+{
+    collect_painted(v);
+    collect_traced(v);
+}
+
 // ---- An order --------------------------------------------------------------------
 
 // The share of the window's resolution at which a frame comes in time.
@@ -143,7 +183,7 @@ static double choose_scale(const viewer *v, uint32_t width, uint32_t height)
     static const double scales[] = { 1, 0.75, 0.5, 0.375, 0.25 };
     double full_ms = v->ms_per_mpx * width * height * 1e-6;
     size_t i = 0;
-    if (v->now - v->moved < rest_s && v->setup->frames == 0)
+    if (!rests(v) && v->setup->frames == 0)
         while (i + 1 < sizeof scales / sizeof *scales &&
                full_ms * scales[i] * scales[i] > budget_ms)
             i++;
@@ -154,6 +194,12 @@ static uint32_t scaled_px(uint32_t size, double scale)
 {
     uint32_t px = (uint32_t)(size * scale + 0.5);
     return px ? px : 1;
+}
+
+// The real-time picture of what is traced.
+static bool lacks_beside(const viewer *v)
+{
+    return v->truth.wanted && !v->truth.stale && !v->truth.beside;
 }
 
 static void set_options(viewer *v, paint_order *o, uint32_t width, uint32_t height)
@@ -167,7 +213,7 @@ static void set_options(viewer *v, paint_order *o, uint32_t width, uint32_t heig
     o->meters = v->meters && v->eye.automatic;
     o->metering = v->eye.metering;
     o->adapts = o->meters && !isfinite(v->eye.ev100);
-    o->keeps = !v->rough && (v->shoots || (v->truth.wanted && !v->truth.beside));
+    o->keeps = !v->rough && (v->shoots || lacks_beside(v));
 }
 
 static void put_truth(const viewer *v, ag_show_options *show, ag_layer *layers)
@@ -234,8 +280,10 @@ void picture_begin(viewer *v)
     if (v->quits || v->hidden || worker_is_busy(painter_worker(v->painter)))
         return;
     adapt(v);
-    bool settles = v->rough && v->now - v->moved >= rest_s;
-    bool owes = v->document.scene && v->truth.wanted && !v->truth.beside && !v->rough;
+    if (width != v->navigation.width || height != v->navigation.height)
+        viewer_redraw(v);
+    bool settles = v->rough && rests(v);
+    bool owes = v->document.scene && lacks_beside(v) && !v->rough;
     v->picture_stale |= settles || owes || v->shoots || forced(v);
     if (!v->picture_stale && !v->layers_stale)
         return;
@@ -271,12 +319,12 @@ double picture_next(const viewer *v)
     const double moments[] = {
         v->watching.next,
         v->message.text[0] ? v->message.until : 0,
-        v->rough ? v->moved + rest_s : 0,
+        v->rough || v->truth.wanted ? v->moved + rest_s : 0,
         v->rests_at,
     };
     for (size_t i = 0; i < sizeof moments / sizeof *moments; i++) {
         double wait = moments[i] - v->now;
-        if (moments[i] > 0 && (next < 0 || wait < next))
+        if (wait > 0 && (next < 0 || wait < next)) // what is over has been seen to
             next = wait > 0.001 ? wait : 0.001;
     }
     return next;
@@ -296,42 +344,19 @@ static void drop_truth(viewer *v)
     v->layers_stale = true;
 }
 
-static void take_truth(viewer *v, const trace_result *result)
-{
-    truth *t = &v->truth;
-    if (!result->picture || t->stale || !t->wanted) {
-        ag_image_destroy(result->picture);
-        return;
-    }
-    ag_image_destroy(t->picture);
-    t->picture = result->picture;
-    t->version++;
-    t->samples = result->samples;
-    t->noise = result->noise;
-    if (result->compared) {
-        t->flip = result->flip;
-        viewer_tell(v, "FLIP to the reference of %u samples: %.4f", t->samples, (double)t->flip);
-    }
-    v->layers_stale = true;
-}
-
 void picture_follow_truth(viewer *v)
 {
     truth *t = &v->truth;
     worker *w = tracer_worker(v->tracer);
     if (worker_is_busy(w) && (t->stale || !t->wanted))
         worker_stop(w);
-    if (worker_is_busy(painter_worker(v->painter)))
-        return; // it reads the pictures
-    ag_status status;
-    trace_result result;
-    if (tracer_collect(v->tracer, &status, &result))
-        take_truth(v, &result);
-    bool rests = v->now - v->moved >= rest_s && !v->picture_stale && !v->rough;
-    if (t->stale && !worker_is_busy(w) && (t->picture || t->beside)) // else it reads them
+    if (worker_is_busy(painter_worker(v->painter)) || worker_is_busy(w))
+        return; // they read the pictures
+    bool sharp = rests(v) && !v->picture_stale && !v->rough;
+    if (t->stale && (t->picture || t->beside))
         drop_truth(v);
-    if (!t->wanted || worker_is_busy(w) || !v->document.scene || !rests || adapts(v) || v->first ||
-        v->loading.ready || (!t->stale && t->samples >= SAMPLES_ENOUGH))
+    if (!t->wanted || !v->document.scene || !sharp || adapts(v) || v->first || v->loading.ready ||
+        (!t->stale && t->samples >= SAMPLES_ENOUGH))
         return;
     trace_order o = { .scene = v->document.scene,
                       .camera = v->ordered_camera,

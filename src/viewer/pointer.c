@@ -30,6 +30,7 @@ static void press(viewer *v, const screen_event *e)
     pointing *p = &v->pointing;
     if (p->drag)
         return; // one button at a time
+    p->button = e->button;
     p->moved = false;
     for (int i = 0; i < 2; i++)
         p->from[i] = p->press[i] = e->at[i];
@@ -41,6 +42,8 @@ static void press(viewer *v, const screen_event *e)
 static void release(viewer *v, const screen_event *e)
 {
     pointing *p = &v->pointing;
+    if (e->button != p->button)
+        return;
     if (e->button == SCREEN_LEFT && p->drag && !p->moved)
         picking_pick(v, picking_at(v, e->at));
     if (p->drag == DRAG_LOOK)

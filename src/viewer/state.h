@@ -19,7 +19,7 @@ enum { INPUT_MAX = 4096 };
 typedef struct loading {
     worker *worker;
     char input[INPUT_MAX], next[INPUT_MAX]; // next: asked for while another was loading
-    bool draft, keeps_view;
+    bool draft, keeps_view, next_keeps_view;
     bool ready; // `document` waits until it may be shown
     viewer_document document;
     const viewer_setup *setup;
@@ -28,7 +28,7 @@ typedef struct loading {
 typedef struct watching {
     int64_t changed_ns, size; // of the file that is shown
     bool gone, differs;       // since the last look
-    double next;              // s, when to look again
+    double next;              // s, when to look again; 0: there is no file
 } watching;
 
 typedef struct eye {
@@ -50,9 +50,10 @@ typedef enum drag {
 
 typedef struct pointing {
     drag drag;
-    double from[2];  // px, where the pointer was last
-    double press[2]; // px, where a button went down
-    bool moved;      // since then
+    screen_button button; // that is held
+    double from[2];       // px, where the pointer was last
+    double press[2];      // px, where a button went down
+    bool moved;           // since then
 } pointing;
 
 typedef struct truth {
@@ -98,6 +99,7 @@ typedef struct viewer {
     loading loading;
     watching watching;
     viewer_document document; // shown; scene NULL: none yet
+    bool drafted;             // it lacks what takes long
     navigation navigation;
     eye eye;
     pointing pointing;

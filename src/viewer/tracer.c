@@ -57,6 +57,7 @@ worker *tracer_worker(tracer *t)
 static ag_status look(tracer *t, bool coarse)
 {
     const trace_order *o = &t->order;
+    const ag_reference_options options = { .progress = worker_progress(t->worker) };
     ag_render_options picture = o->picture;
     t->coarse = coarse;
     if (coarse) {
@@ -64,9 +65,9 @@ static ag_status look(tracer *t, bool coarse)
         picture.height = (picture.height + COARSE - 1) / COARSE;
     }
     if (t->reference && t->scene == o->scene)
-        return ag_reference_restart(t->reference, &o->camera, &picture, NULL);
+        return ag_reference_restart(t->reference, &o->camera, &picture, &options);
     tracer_forget(t);
-    ag_status status = ag_reference_create(o->scene, &o->camera, &picture, NULL, &t->reference);
+    ag_status status = ag_reference_create(o->scene, &o->camera, &picture, &options, &t->reference);
     t->scene = status ? NULL : o->scene;
     return status;
 }
@@ -90,11 +91,13 @@ static ag_status compare(tracer *t, uint32_t before)
     bool crossed = false;
     for (uint32_t n = before + 1; n <= r->samples; n++)
         crossed |= is_power_of_two(n);
-    if (!t->order.beside || !crossed || worker_is_stopped(t->worker))
-        return AG_OK;
+    const ag_image *beside = t->order.beside;
+    bool same_size = beside && ag_image_width(beside) == ag_image_width(r->picture) &&
+                     ag_image_height(beside) == ag_image_height(r->picture);
+    if (!same_size || !crossed || worker_is_stopped(t->worker))
+        return AG_OK; // of another size: the window has just changed
     ag_difference difference;
-    ag_status status =
-        ag_image_compare(&t->log, r->picture, t->order.beside, NULL, &difference, NULL);
+    ag_status status = ag_image_compare(&t->log, r->picture, beside, NULL, &difference, NULL);
     r->compared = !status;
     r->flip = difference.flip;
     return status;

@@ -137,7 +137,7 @@ static ag_status create_parts(viewer *v)
     return status ? status : create_ring(v);
 }
 
-// The window goes at once; then everybody is stopped, and at last what they read is freed.
+// First everybody is stopped, then what they read is freed.
 static void destroy_parts(viewer *v)
 {
     if (v->loading.worker)
@@ -176,7 +176,7 @@ static void handle_events(viewer *v)
         free(event.path);
     }
     if (screen_damaged(v->screen))
-        viewer_redraw(v); // of another size perhaps
+        v->layers_stale = true;
     v->quits |= screen_closing(v->screen);
 }
 
@@ -187,10 +187,10 @@ static void run(viewer *v)
         v->now = screen_time();
         hear_all(v);
         handle_events(v);
+        actions_collect(v); // first who is done: then the scene may be changed
+        picture_collect(v);
         document_collect(v);
         document_watch(v);
-        actions_collect(v);
-        picture_collect(v);
         pointer_step(v);
         picking_step(v);
         picture_follow_truth(v);
