@@ -6,11 +6,11 @@
 
 void help_short(void)
 {
-    fputs("usage: argand view FILE                  a glTF file in a window\n"
-          "       argand render FILE -o PICTURE     a picture of it\n"
+    fputs("usage: argand render FILE -o PICTURE   a picture of a glTF file\n"
           "       argand render demo:spheres -o PICTURE\n"
-          "       argand info FILE                 what is in it\n"
-          "       argand help [COMMAND]            everything else\n",
+          "       argand view FILE                the same in a window\n"
+          "       argand info FILE                what is in it\n"
+          "       argand help [COMMAND]           everything else\n",
           stderr);
 }
 

@@ -84,6 +84,10 @@ static bool parse(view_request *request, int argc, char **argv, bool *help)
     if (!options_parse(&set, argc, argv))
         return false;
     *help = set.help;
+    if (!set.help && request->exits && !request->frames) {
+        fputs("argand: view: --exit needs the --frames after which to close the window\n", stderr);
+        return false;
+    }
     return set.help || shot_request_settle(&request->shot, "view", false);
 }
 

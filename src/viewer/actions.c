@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 static const double split_step = 0.05;
-static const float exposure_step_ev = 1.0f / 3;
+static const float exposure_step_ev = 1.0f / 3, most_compensation_ev = 10, most_exposure = 1e9f;
 
 // ---- Files -------------------------------------------------------------------
 
@@ -31,7 +31,12 @@ static ag_status save_picture(void *context, worker *self)
 {
     viewer *v = context;
     const ag_log log = worker_log(self, v->setup->level);
-    return ag_image_save(&log, v->saved, v->save_path, NULL);
+    const ag_image_note notes[] = {
+        { "Software", "argand", 0 },
+        { "ev100", NULL, (double)v->saved_ev100 },
+    };
+    const ag_image_save_options options = { .notes = notes, .note_count = 2 };
+    return ag_image_save(&log, v->saved, v->save_path, &options);
 }
 
 static ag_status save_scene(void *context, worker *self)
@@ -67,6 +72,7 @@ void actions_keep(viewer *v, ag_image *picture)
 {
     if (v->shoots && can_save(v, ".png")) {
         v->saved = picture;
+        v->saved_ev100 = ag_ev100_from_exposure(v->ordered.options.exposure);
         worker_start(v->saver, save_picture, v);
     } else if (v->truth.wanted && !v->truth.beside && !v->truth.stale) {
         v->truth.beside = picture;
@@ -139,11 +145,12 @@ static void expose(viewer *v, float stops)
 {
     eye *e = &v->eye;
     if (e->automatic) {
-        e->metering.compensation_ev += stops;
+        float ev = e->metering.compensation_ev + stops;
+        e->metering.compensation_ev = fminf(fmaxf(ev, -most_compensation_ev), most_compensation_ev);
         viewer_say(v, false, "exposure: %+.2f EV beside the meter",
                    (double)e->metering.compensation_ev);
     } else {
-        e->exposure *= exp2f(stops);
+        e->exposure = fminf(fmaxf(e->exposure * exp2f(stops), 1 / most_exposure), most_exposure);
         viewer_say(v, false, "exposure: EV100 %+.2f", (double)ag_ev100_from_exposure(e->exposure));
     }
     viewer_redraw(v);

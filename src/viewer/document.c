@@ -130,6 +130,8 @@ static void swap(viewer *v)
     v->document = l->document;
     l->document = (viewer_document) { 0 };
     l->ready = false;
+    if (v->message.alarm)
+        v->message.until = 0; // what was wrong is replaced
     if (keeps)
         v->document.look = look;
     v->shown.scene = ag_scene_summarize(v->document.scene);

@@ -127,6 +127,7 @@ static void collect_painted(viewer *v)
         return;
     }
     v->losses = 0;
+    v->failed = AG_OK;
     if (v->report->first_pixels_ms <= 0)
         v->report->first_pixels_ms = v->now * 1e3;
     if (!result.has_picture)

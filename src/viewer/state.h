@@ -137,6 +137,7 @@ typedef struct viewer {
     bool shoots;                   // the next sharp picture is saved
     worker *saver;
     ag_image *saved;
+    float saved_ev100;
     char save_path[INPUT_MAX];
     ag_status failed; // why it ends
 } viewer;
