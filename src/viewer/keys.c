@@ -86,20 +86,20 @@ enum {
     key_count = sizeof table->keys / sizeof *table->keys,
 };
 
-static bool is_letter(uint32_t pressed)
+static action find(uint32_t pressed, unsigned modifiers)
 {
-    return (pressed >= 'A' && pressed <= 'Z') || pressed >= KEY_ESCAPE;
-}
-
-action keys_action(uint32_t pressed, unsigned modifiers)
-{
-    if (!is_letter(pressed))
-        modifiers &= ~(unsigned)KEY_SHIFT;
     for (size_t i = 0; i < row_count; i++)
         for (size_t k = 0; k < key_count && table[i].keys[k].does; k++)
             if (table[i].keys[k].key == pressed && table[i].keys[k].modifiers == modifiers)
                 return table[i].keys[k].does;
     return ACTION_NONE;
+}
+
+action keys_action(uint32_t pressed, unsigned modifiers)
+{
+    action exact = find(pressed, modifiers);
+    bool writes = pressed < KEY_ESCAPE;
+    return exact || !writes ? exact : find(pressed, modifiers & ~(unsigned)KEY_SHIFT);
 }
 
 bool keys_at(size_t index, key_use *use)

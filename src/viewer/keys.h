@@ -63,8 +63,8 @@ typedef enum key {
 
 enum { KEY_SHIFT = 1, KEY_CTRL = 2, KEY_ALT = 4 };
 
-// What a key does, pressed with these modifiers and no others.  Shift does not count with
-// characters that are no letters, which may need it.
+// What a key does, pressed with these modifiers and no others.  Shift counts only where it makes
+// a difference in the table, or with keys that write nothing: characters may need it.
 action keys_action(uint32_t pressed, unsigned modifiers);
 
 typedef struct key_use {

@@ -40,10 +40,12 @@ static void test_modifiers(void **state)
     assert_int_equal(keys_action('?', KEY_SHIFT), ACTION_HELP);
     assert_int_equal(keys_action('+', KEY_SHIFT), ACTION_BRIGHTER);
     assert_int_equal(keys_action('1', KEY_CTRL), ACTION_BACK);
-    assert_int_equal(keys_action('R', KEY_SHIFT), ACTION_NONE);
+    assert_int_equal(keys_action('R', KEY_SHIFT), ACTION_REFERENCE);
+    assert_int_equal(keys_action('Q', KEY_CTRL | KEY_SHIFT), ACTION_QUIT);
     assert_int_equal(keys_action('R', KEY_CTRL), ACTION_NONE);
     assert_int_equal(keys_action('?', KEY_ALT), ACTION_NONE);
     assert_int_equal(keys_action(KEY_F12, KEY_SHIFT), ACTION_NONE);
+    assert_int_equal(keys_action(KEY_HOME, KEY_SHIFT), ACTION_NONE);
     assert_int_equal(keys_action('W', 0), ACTION_NONE); // held down, it flies
     assert_int_equal(keys_action(0, 0), ACTION_NONE);
 }
