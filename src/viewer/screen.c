@@ -12,12 +12,10 @@
 int glfwCreateWindowSurface(void *instance, GLFWwindow *window, const void *allocator,
                             void *surface);
 
-enum { EVENTS_MAX = 256 };
-
 struct screen {
     GLFWwindow *window;
-    screen_event events[EVENTS_MAX];
-    size_t first, count;
+    screen_event *events; // [first, end) are still to be taken
+    size_t first, end, capacity;
     bool damaged;
     int place[4]; // of the window before it filled the display: x, y, width, height
 };
@@ -52,20 +50,31 @@ static unsigned modifiers_now(const screen *s)
            (either(s, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) ? KEY_ALT : 0u);
 }
 
-// Events that nobody takes are lost, the newest first, but for a drop's path, which is freed.
+static bool reserve(screen *s)
+{
+    if (s->end < s->capacity)
+        return true;
+    size_t capacity = s->capacity ? 2 * s->capacity : 64;
+    screen_event *events = realloc(s->events, capacity * sizeof *events);
+    if (!events)
+        return false;
+    s->events = events;
+    s->capacity = capacity;
+    return true;
+}
+
+// All are kept, so that no button stays pressed; without memory the newest is lost.
 static void push(screen *s, screen_event event)
 {
-    if (s->count == EVENTS_MAX) {
-        free(event.path);
-        return;
-    }
     if (event.kind != SCREEN_MOTION && event.kind != SCREEN_BUTTON)
         screen_pointer(s, event.at);
-    screen_event *last = &s->events[(s->first + s->count + EVENTS_MAX - 1) % EVENTS_MAX];
-    if (s->count && event.kind == SCREEN_MOTION && last->kind == SCREEN_MOTION)
+    screen_event *last = s->end > s->first ? &s->events[s->end - 1] : NULL;
+    if (last && event.kind == SCREEN_MOTION && last->kind == SCREEN_MOTION)
         *last = event; // the pointer is where it is: the way does not matter
+    else if (reserve(s))
+        s->events[s->end++] = event;
     else
-        s->events[(s->first + s->count++) % EVENTS_MAX] = event;
+        free(event.path);
 }
 
 static uint32_t named_key(int code)
@@ -167,11 +176,11 @@ static void on_resize(GLFWwindow *window, int width, int height)
 
 bool screen_event_next(screen *s, screen_event *event)
 {
-    if (!s->count)
+    if (s->first == s->end)
         return false;
-    *event = s->events[s->first];
-    s->first = (s->first + 1) % EVENTS_MAX;
-    s->count--;
+    *event = s->events[s->first++];
+    if (s->first == s->end)
+        s->first = s->end = 0;
     return true;
 }
 
@@ -229,6 +238,7 @@ void screen_destroy(screen *s)
         free(event.path);
     glfwDestroyWindow(s->window);
     glfwTerminate();
+    free(s->events);
     free(s);
 }
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import time
 
 from kit import *
@@ -64,6 +65,23 @@ def at_rest_nothing_is_done():
     v.close()
 
 
+def no_release_is_lost():
+    """However many events come while the viewer is not heard."""
+    v = Viewer(scene, *PLAIN)
+    v.shown()
+    v.point(120, 80)
+    v.process.send_signal(signal.SIGSTOP)
+    xdotool("mousedown", 1)
+    for _ in range(3):
+        xdotool("key", "--delay", 1, *("bracketleft", "bracketright") * 100)
+    xdotool("mouseup", 1)
+    v.process.send_signal(signal.SIGCONT)
+    before = v.rest()
+    v.point(180, 80)
+    check(v.rest() == before, "the button is still held: the view turns")
+    v.close()
+
+
 def fail_once(path, call, code):
     with open(path + ".new", "w") as file:
         file.write(f"{call} {code}\n")
@@ -95,5 +113,6 @@ run(
     frames_are_counted,
     fonts_may_be_missing,
     at_rest_nothing_is_done,
+    no_release_is_lost,
     a_lost_device_is_opened_again,
 )
