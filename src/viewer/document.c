@@ -87,6 +87,7 @@ void document_load(viewer *v, const char *input, bool keeps_view)
     ag_scene_destroy(l->document.scene); // loaded, and never shown
     l->document = (viewer_document) { 0 };
     l->ready = false;
+    l->failed = AG_OK;
     l->keeps_view = keeps_view;
     if (input != l->input)
         snprintf(l->input, sizeof l->input, "%s", input);
@@ -156,6 +157,7 @@ void document_collect(viewer *v)
     ag_status status;
     if (worker_collect(l->worker, &status)) {
         l->ready = !status;
+        l->failed = status;
         if (status && v->setup->exits && !v->document.scene) {
             v->failed = status; // nobody will ever see a frame
             v->quits = true;

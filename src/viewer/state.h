@@ -20,7 +20,8 @@ typedef struct loading {
     worker *worker;
     char input[INPUT_MAX], next[INPUT_MAX]; // next: asked for while another was loading
     bool draft, keeps_view, next_keeps_view;
-    bool ready; // `document` waits until it may be shown
+    bool ready;       // `document` waits until it may be shown
+    ag_status failed; // the last time
     viewer_document document;
     const viewer_setup *setup;
 } loading;

@@ -222,6 +222,8 @@ ag_status viewer_run(const viewer_setup *setup, viewer_report *report)
         painter_close(v.painter);
         hear_all(&v);
         status = v.failed;
+        if (!status && !v.document.scene && !v.loading.ready)
+            status = v.loading.failed; // nothing was ever seen
     }
     if (v.frame_count) {
         qsort(v.frame_ms, v.frame_count, sizeof *v.frame_ms, by_time);

@@ -39,7 +39,8 @@ typedef struct viewer_report {
 } viewer_report;
 
 // Open a window and stay until it is closed.  The main thread's.  AG_ERROR_DEVICE without a
-// display or a device; of a file that cannot be read only the user is told.
+// display or a device; of a file that cannot be read the user is told, and its error is returned
+// when no scene was ever there.
 ag_status viewer_run(const viewer_setup *setup, viewer_report *report);
 
 #endif

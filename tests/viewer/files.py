@@ -74,7 +74,15 @@ def a_broken_file_is_told():
         empty = told.at(1, 1)
         check(any(told.at(x, 270) != empty for x in range(40, 440)), "nothing is written")
         check(v.process.poll() is None, "it ended")
-        v.close()
+        v.close(code=1)
+        v = Viewer(input, "--frames", "3", "--exit")
+        check(v.ended() == 1, f"exit code {v.process.returncode} of a script")
+        check(v.said("error: "), "nothing is said to a script")
+    cube(path)
+    v = started()
+    os.unlink(path)
+    v.says("error: ", "o")
+    v.close()  # something was seen
 
 
 run(a_changed_file_is_read_again, a_file_may_vanish, o_reads_it_again, a_broken_file_is_told)

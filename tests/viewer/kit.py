@@ -301,9 +301,9 @@ class Viewer:
         xdotool("click", 1)
         return self.rest()
 
-    def close(self):
+    def close(self, code=0):
         xdotool("key", "ctrl+q")
-        check(self.ended() == 0, f"exit code {self.process.returncode}")
+        check(self.ended() == code, f"exit code {self.process.returncode}, not {code}")
 
 
 # ---- Scenes ----------------------------------------------------------------------
