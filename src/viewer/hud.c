@@ -9,11 +9,11 @@
 
 enum { ROWS_MAX = 64, VALUE_MAX = 96, MARGIN = 12 };
 
-// Where panels stand.
+// Where panels stand; those that others make room for come first.
 typedef enum place {
-    PLACE_STATUS, // the upper left
-    PLACE_THING,  // the lower left
     PLACE_NEWS,   // the middle below
+    PLACE_THING,  // the lower left
+    PLACE_STATUS, // the upper left
     PLACE_HELP,   // the middle
 } place;
 
@@ -178,12 +178,17 @@ static void fill(rows *r, place which, const hud_state *s)
 
 // ---- Places ----------------------------------------------------------------
 
+static float margin_of(panel_room room)
+{
+    return MARGIN * (room.scale > 0 ? room.scale : 1);
+}
+
 static void set_place(ag_layer *layer, place which, panel_room room)
 {
-    float margin = MARGIN * (room.scale > 0 ? room.scale : 1);
-    float width = (float)ag_image_width(layer->image);
-    float height = (float)ag_image_height(layer->image);
-    float across = (float)room.width - width, down = (float)room.height - height;
+    float margin = margin_of(room);
+    layer->width = (float)ag_image_width(layer->image);
+    layer->height = (float)ag_image_height(layer->image);
+    float across = (float)room.width - layer->width, down = (float)room.height - layer->height;
     bool middle = which == PLACE_NEWS || which == PLACE_HELP;
     layer->x = (float)(int)(middle ? across / 2 : margin);
     layer->y = (float)(int)(which == PLACE_HELP     ? down / 2
@@ -191,26 +196,46 @@ static void set_place(ag_layer *layer, place which, panel_room room)
                                                     : down - margin);
 }
 
+static bool is_under(const ag_layer *lower, const ag_layer *upper)
+{
+    return lower->x < upper->x + upper->width && upper->x < lower->x + lower->width;
+}
+
+// What is left of the window for a panel beside those that stand.
+static panel_room room_for(place which, panel_room window, const ag_layer *thing)
+{
+    float margin = margin_of(window);
+    float width = (float)window.width - 2 * margin, height = (float)window.height - 2 * margin;
+    if (which == PLACE_STATUS && thing)
+        height = thing->y - 2 * margin;
+    return (panel_room) { width > 0 ? (uint32_t)width : window.width,
+                          height > 0 ? (uint32_t)height : window.height, window.scale };
+}
+
 uint32_t hud_compose(hud *h, const hud_state *state, panel_room window, ag_layer *layers)
 {
     uint32_t used = 0;
     rows r;
-    panel_room room = window;
-    uint32_t margins = (uint32_t)(2 * MARGIN * (room.scale > 0 ? room.scale : 1));
-    room.width -= room.width > margins ? margins : 0;
-    room.height -= room.height > margins ? margins : 0;
+    const ag_layer *news = NULL, *thing = NULL;
     for (int i = 0; i < HUD_LAYERS; i++) {
         fill(&r, (place)i, state);
         // What cannot be shown for want of memory stays as it was.
-        if (panel_show(h->panels[i], r.items, r.count, room) != AG_OK)
+        if (panel_show(h->panels[i], r.items, r.count, room_for((place)i, window, thing)) != AG_OK)
             continue;
         const ag_image *image = panel_image(h->panels[i]);
         if (!image)
             continue;
+        ag_layer *layer = &layers[used++];
         const uint64_t owner = (uint64_t)(i + 1) << 48;
-        layers[used] =
-            (ag_layer) { .image = image, .version = owner + panel_revision(h->panels[i]) };
-        set_place(&layers[used++], (place)i, window);
+        *layer = (ag_layer) { .image = image, .version = owner + panel_revision(h->panels[i]) };
+        set_place(layer, (place)i, window);
+        if (i == PLACE_NEWS)
+            news = layer;
+        if (i == PLACE_THING) {
+            thing = layer;
+            if (news && is_under(news, layer))
+                layer->y = news->y - margin_of(window) / 2 - layer->height;
+        }
     }
     return used;
 }
