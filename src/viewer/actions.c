@@ -29,8 +29,9 @@ static bool free_name(const viewer *v, const char *ending, char path[INPUT_MAX])
 
 static ag_status save_picture(void *context, worker *self)
 {
+    (void)self;
     viewer *v = context;
-    const ag_log log = worker_log(self, v->setup->level);
+    const ag_log log = crew_log(v->crew, v->setup->level);
     const ag_image_note notes[] = {
         { "Software", "argand", 0 },
         { "ev100", NULL, (double)v->saved_ev100 },

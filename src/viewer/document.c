@@ -63,7 +63,7 @@ static bool is_large(const char *input, int64_t size)
 static ag_status load_job(void *context, worker *self)
 {
     loading *l = context;
-    const ag_log log = worker_log(self, l->setup->level);
+    const ag_log log = crew_log(l->crew, l->setup->level);
     const ag_progress progress = worker_progress(self);
     return l->setup->open(l->setup->user, l->input, l->draft, &log, &progress, &l->document);
 }

@@ -15,19 +15,19 @@ struct painter {
     paint_result result;
 };
 
-painter *painter_create(screen *s, const painter_desc *desc)
+painter *painter_create(screen *s, crew *c, const painter_desc *desc)
 {
     painter *p = calloc(1, sizeof *p);
     if (!p)
         return NULL;
     p->screen = s;
     p->desc = *desc;
-    p->worker = worker_create(screen_wake);
+    p->worker = worker_create(c);
     if (!p->worker) {
         free(p);
         return NULL;
     }
-    p->log = worker_log(p->worker, desc->level);
+    p->log = crew_log(c, desc->level);
     return p;
 }
 

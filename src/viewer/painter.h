@@ -37,7 +37,7 @@ typedef struct paint_result {
 typedef struct painter painter;
 
 // The device is opened with the first order.  NULL: no thread, no memory.
-painter *painter_create(screen *s, const painter_desc *desc);
+painter *painter_create(screen *s, crew *c, const painter_desc *desc);
 void painter_close(painter *p);   // the device, after the order that is at work
 void painter_destroy(painter *p); // NULL is allowed
 

@@ -18,6 +18,7 @@ enum { INPUT_MAX = 4096 };
 // What is being loaded, and what the file looked like when it was.
 typedef struct loading {
     worker *worker;
+    crew *crew;
     char input[INPUT_MAX], next[INPUT_MAX]; // next: asked for while another was loading
     bool draft, keeps_view, next_keeps_view;
     bool ready;       // `document` waits until it may be shown
@@ -95,6 +96,7 @@ typedef struct viewer {
     viewer_report *report;
     screen *screen;
     hud *hud;
+    crew *crew;
     painter *painter;
     tracer *tracer;
     loading loading;

@@ -1,8 +1,6 @@
 // The tracer: the path traced picture of a view, growing beside the window's thread.
 #include "tracer.h"
 
-#include "screen.h"
-
 #include <stdlib.h>
 
 enum { COARSE = 4, PASS_MAX = 16 };
@@ -17,17 +15,17 @@ struct tracer {
     trace_result result;
 };
 
-tracer *tracer_create(ag_log_level level)
+tracer *tracer_create(crew *c, ag_log_level level)
 {
     tracer *t = calloc(1, sizeof *t);
     if (!t)
         return NULL;
-    t->worker = worker_create(screen_wake);
+    t->worker = worker_create(c);
     if (!t->worker) {
         free(t);
         return NULL;
     }
-    t->log = worker_log(t->worker, level);
+    t->log = crew_log(c, level);
     return t;
 }
 

@@ -26,8 +26,8 @@ typedef struct trace_result {
 
 typedef struct tracer tracer;
 
-tracer *tracer_create(ag_log_level level); // NULL: no thread, no memory
-void tracer_destroy(tracer *t);            // NULL is allowed
+tracer *tracer_create(crew *c, ag_log_level level); // NULL: no thread, no memory
+void tracer_destroy(tracer *t);                     // NULL is allowed
 
 worker *tracer_worker(tracer *t);
 

@@ -27,7 +27,7 @@ void viewer_say(viewer *v, bool alarm, const char *format, ...)
 
 void viewer_tell(const viewer *v, const char *format, ...)
 {
-    char sentence[WORKER_SENTENCE_MAX];
+    char sentence[CREW_SENTENCE_MAX];
     const ag_log *log = v->setup->log;
     va_list args;
     va_start(args, format);
@@ -54,11 +54,11 @@ bool viewer_can_edit(viewer *v)
 
 // ---- What the threads say --------------------------------------------------------
 
-static void hear(viewer *v, worker *w)
+static void hear(viewer *v)
 {
     ag_log_level level;
-    char sentence[WORKER_SENTENCE_MAX];
-    while (worker_hear(w, &level, sentence)) {
+    char sentence[CREW_SENTENCE_MAX];
+    while (crew_hear(v->crew, &level, sentence)) {
         const ag_log *log = v->setup->log;
         if (log && log->write)
             log->write(log->user, level, sentence);
@@ -70,14 +70,6 @@ static void hear(viewer *v, worker *w)
         v->message.until = v->now + 3 * MESSAGE_S;
         v->layers_stale = true;
     }
-}
-
-static void hear_all(viewer *v)
-{
-    hear(v, v->loading.worker);
-    hear(v, painter_worker(v->painter));
-    hear(v, tracer_worker(v->tracer));
-    hear(v, v->saver);
     if (v->message.text[0] && v->now >= v->message.until) {
         v->message.text[0] = 0;
         v->layers_stale = true;
@@ -123,13 +115,17 @@ static ag_status create_parts(viewer *v)
     // Of each frame only what is wrong is worth a word.
     const painter_desc device = { setup->device, setup->validate, AG_LOG_WARNING };
     v->hud = hud_create(setup->log);
-    v->painter = painter_create(v->screen, &device);
-    v->tracer = tracer_create(setup->level);
-    v->loading.worker = worker_create(screen_wake);
+    v->crew = crew_create(screen_wake);
+    if (!v->hud || !v->crew)
+        return no_memory(v);
+    v->painter = painter_create(v->screen, v->crew, &device);
+    v->tracer = tracer_create(v->crew, setup->level);
+    v->loading.worker = worker_create(v->crew);
+    v->loading.crew = v->crew;
     v->loading.setup = setup;
-    v->saver = worker_create(screen_wake);
+    v->saver = worker_create(v->crew);
     v->frame_ms = calloc(setup->frames + 1ul, sizeof *v->frame_ms);
-    if (!v->hud || !v->painter || !v->tracer || !v->loading.worker || !v->saver || !v->frame_ms)
+    if (!v->painter || !v->tracer || !v->loading.worker || !v->saver || !v->frame_ms)
         return no_memory(v);
     const uint8_t white[4] = { 255, 255, 255, 255 };
     const ag_image_desc pixel = { 1, 1, AG_FORMAT_RGBA8, white };
@@ -156,6 +152,7 @@ static void destroy_parts(viewer *v)
     ag_image_destroy(v->white);
     ag_image_destroy(v->ring);
     ag_image_destroy(v->saved);
+    crew_destroy(v->crew);
     screen_destroy(v->screen);
     free(v->frame_ms);
 }
@@ -185,7 +182,7 @@ static void run(viewer *v)
     document_load(v, v->setup->input, false);
     while (!v->quits) {
         v->now = screen_time();
-        hear_all(v);
+        hear(v);
         handle_events(v);
         actions_collect(v); // first who is done: then the scene may be changed
         picture_collect(v);
@@ -220,7 +217,7 @@ ag_status viewer_run(const viewer_setup *setup, viewer_report *report)
     if (!status) {
         run(&v);
         painter_close(v.painter);
-        hear_all(&v);
+        hear(&v);
         status = v.failed;
         if (!status && !v.document.scene && !v.loading.ready)
             status = v.loading.failed; // nothing was ever seen

@@ -1,4 +1,4 @@
-// A worker: a thread that does one job at a time, beside that of the window.
+// Workers: threads that do one job at a time each, beside that of the window.
 #include "worker.h"
 
 #include <pthread.h>
@@ -8,34 +8,110 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SENTENCES_MAX = 16 };
+enum { SENTENCES_MAX = 32 };
 
 typedef struct said {
     ag_log_level level;
-    char text[WORKER_SENTENCE_MAX];
+    char text[CREW_SENTENCE_MAX];
 } said;
 
+struct crew {
+    pthread_mutex_t lock;
+    void (*wake)(void);
+    worker *workers;
+    said sentences[SENTENCES_MAX];
+    size_t first, count;
+};
+
 struct worker {
+    crew *crew;
+    worker *next; // of the crew
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t changed;
-    void (*wake)(void);
     worker_job job; // NULL: nothing to do
     void *context;
     bool done, quits;
     ag_status status;
     bool busy; // of the other thread alone
     atomic_bool stop;
-    said sentences[SENTENCES_MAX];
-    size_t first, count;
     worker_stage stage;
 };
 
-static _Thread_local worker *running; // by this thread
+// ---- The crew ------------------------------------------------------------------
+
+crew *crew_create(void (*wake)(void))
+{
+    crew *c = calloc(1, sizeof *c);
+    if (!c)
+        return NULL;
+    c->wake = wake;
+    pthread_mutex_init(&c->lock, NULL);
+    return c;
+}
+
+void crew_destroy(crew *c)
+{
+    if (!c)
+        return;
+    pthread_mutex_destroy(&c->lock);
+    free(c);
+}
+
+// The caller has the lock.
+static bool speaker_is_stopped(const crew *c)
+{
+    for (const worker *w = c->workers; w; w = w->next)
+        if (pthread_equal(w->thread, pthread_self()))
+            return worker_is_stopped(w);
+    return false; // the window's thread
+}
+
+// The oldest gives way: what matters is said last.  That it was stopped, who stopped it knows.
+static void say(void *user, ag_log_level level, const char *sentence)
+{
+    crew *c = user;
+    pthread_mutex_lock(&c->lock);
+    bool heard = !speaker_is_stopped(c);
+    if (heard && c->count == SENTENCES_MAX) {
+        c->first = (c->first + 1) % SENTENCES_MAX;
+        c->count--;
+    }
+    if (heard) {
+        said *s = &c->sentences[(c->first + c->count++) % SENTENCES_MAX];
+        s->level = level;
+        snprintf(s->text, sizeof s->text, "%s", sentence);
+    }
+    pthread_mutex_unlock(&c->lock);
+    if (heard)
+        c->wake();
+}
+
+ag_log crew_log(crew *c, ag_log_level level)
+{
+    return (ag_log) { .write = say, .user = c, .level = level };
+}
+
+bool crew_hear(crew *c, ag_log_level *level, char sentence[CREW_SENTENCE_MAX])
+{
+    pthread_mutex_lock(&c->lock);
+    bool any = c->count > 0;
+    if (any) {
+        const said *s = &c->sentences[c->first];
+        *level = s->level;
+        memcpy(sentence, s->text, sizeof s->text);
+        c->first = (c->first + 1) % SENTENCES_MAX;
+        c->count--;
+    }
+    pthread_mutex_unlock(&c->lock);
+    return any;
+}
+
+// ---- Its workers ---------------------------------------------------------------
 
 static void *work(void *argument)
 {
-    worker *w = running = argument;
+    worker *w = argument;
     pthread_mutex_lock(&w->lock);
     for (;;) {
         while (!w->job && !w->quits)
@@ -50,32 +126,57 @@ static void *work(void *argument)
         w->status = status;
         w->done = true;
         pthread_cond_broadcast(&w->changed);
-        w->wake();
+        w->crew->wake();
     }
     pthread_mutex_unlock(&w->lock);
     return NULL;
 }
 
-worker *worker_create(void (*wake)(void))
+// Signals are for the thread of the window.
+static bool start_thread(worker *w)
 {
-    worker *w = calloc(1, sizeof *w);
-    if (!w)
-        return NULL;
-    w->wake = wake;
-    pthread_mutex_init(&w->lock, NULL);
-    pthread_cond_init(&w->changed, NULL);
-    // Signals are for the thread of the window.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     bool started = pthread_create(&w->thread, NULL, work, w) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-    if (!started) {
+    return started;
+}
+
+static void join_crew(worker *w, crew *c)
+{
+    pthread_mutex_lock(&c->lock);
+    w->next = c->workers;
+    c->workers = w;
+    pthread_mutex_unlock(&c->lock);
+}
+
+static void leave_crew(const worker *w)
+{
+    crew *c = w->crew;
+    pthread_mutex_lock(&c->lock);
+    worker **at = &c->workers;
+    while (*at != w)
+        at = &(*at)->next;
+    *at = w->next;
+    pthread_mutex_unlock(&c->lock);
+}
+
+worker *worker_create(crew *c)
+{
+    worker *w = calloc(1, sizeof *w);
+    if (!w)
+        return NULL;
+    w->crew = c;
+    pthread_mutex_init(&w->lock, NULL);
+    pthread_cond_init(&w->changed, NULL);
+    if (!start_thread(w)) {
         pthread_cond_destroy(&w->changed);
         pthread_mutex_destroy(&w->lock);
         free(w);
         return NULL;
     }
+    join_crew(w, c);
     return w;
 }
 
@@ -89,6 +190,7 @@ void worker_destroy(worker *w)
     pthread_cond_broadcast(&w->changed);
     pthread_mutex_unlock(&w->lock);
     pthread_join(w->thread, NULL);
+    leave_crew(w);
     pthread_cond_destroy(&w->changed);
     pthread_mutex_destroy(&w->lock);
     free(w);
@@ -137,21 +239,6 @@ void worker_wait(worker *w)
     pthread_mutex_unlock(&w->lock);
 }
 
-bool worker_hear(worker *w, ag_log_level *level, char sentence[WORKER_SENTENCE_MAX])
-{
-    pthread_mutex_lock(&w->lock);
-    bool any = w->count > 0;
-    if (any) {
-        const said *s = &w->sentences[w->first];
-        *level = s->level;
-        memcpy(sentence, s->text, sizeof s->text);
-        w->first = (w->first + 1) % SENTENCES_MAX;
-        w->count--;
-    }
-    pthread_mutex_unlock(&w->lock);
-    return any;
-}
-
 worker_stage worker_at(worker *w)
 {
     pthread_mutex_lock(&w->lock);
@@ -179,7 +266,7 @@ void worker_tell(worker *w, const char *stage, double fraction)
     }
     pthread_mutex_unlock(&w->lock);
     if (news)
-        w->wake();
+        w->crew->wake();
 }
 
 static bool update(void *user, const char *stage, double fraction)
@@ -191,28 +278,4 @@ static bool update(void *user, const char *stage, double fraction)
 ag_progress worker_progress(worker *w)
 {
     return (ag_progress) { .update = update, .user = w };
-}
-
-// A scene keeps the log of the loader, whoever reads it: it is the thread that says something.
-// The oldest gives way: what matters is said last.  That it was stopped, who stopped it knows.
-static void say(void *user, ag_log_level level, const char *sentence)
-{
-    worker *w = running ? running : user;
-    if (worker_is_stopped(w))
-        return;
-    pthread_mutex_lock(&w->lock);
-    if (w->count == SENTENCES_MAX) {
-        w->first = (w->first + 1) % SENTENCES_MAX;
-        w->count--;
-    }
-    said *s = &w->sentences[(w->first + w->count++) % SENTENCES_MAX];
-    s->level = level;
-    snprintf(s->text, sizeof s->text, "%s", sentence);
-    pthread_mutex_unlock(&w->lock);
-    w->wake();
-}
-
-ag_log worker_log(worker *w, ag_log_level level)
-{
-    return (ag_log) { .write = say, .user = w, .level = level };
 }

@@ -1,17 +1,35 @@
-// A worker: a thread that does one job at a time, beside that of the window.
+// A worker: a thread that does one job at a time, beside that of the window.  A crew: all of
+// them, and what they say.
 //
-// Threads: the functions of the first group belong to the thread that made it, those of the
-// second to the job.
+// Threads: the functions of the first two groups belong to the thread that made the crew, those
+// of the third to the job.
 #ifndef VIEWER_WORKER_H
 #define VIEWER_WORKER_H
 
 #include <argand/base.h>
 
+typedef struct crew crew;
+
+// `wake` is called on a worker's thread when there is news.  NULL: no memory.
+crew *crew_create(void (*wake)(void));
+void crew_destroy(crew *c); // after its workers; NULL is allowed
+
+// A log for all threads of the crew: a scene keeps the one that it was loaded with, whoever
+// reads it.  What a worker says that is to stop is not heard.
+ag_log crew_log(crew *c, ag_log_level level);
+
+enum { CREW_SENTENCE_MAX = 1024 };
+
+// The next sentence that was said, oldest first; false: there is none.
+bool crew_hear(crew *c, ag_log_level *level, char sentence[CREW_SENTENCE_MAX]);
+
+// ---- Workers -------------------------------------------------------------------
+
 typedef struct worker worker;
 typedef ag_status (*worker_job)(void *context, worker *self);
 
-// `wake` is called on the worker's thread when there is news.  NULL: no thread, no memory.
-worker *worker_create(void (*wake)(void));
+// NULL: no thread, no memory.
+worker *worker_create(crew *c);
 void worker_destroy(worker *w); // stops its job and waits; NULL is allowed
 
 // Start a job; the worker is not busy.
@@ -29,11 +47,6 @@ void worker_stop(worker *w);
 // Wait for the end of the job; it is still to be collected.
 void worker_wait(worker *w);
 
-enum { WORKER_SENTENCE_MAX = 1024 };
-
-// The next sentence that was said, oldest first; false: there is none.
-bool worker_hear(worker *w, ag_log_level *level, char sentence[WORKER_SENTENCE_MAX]);
-
 typedef struct worker_stage {
     char name[32]; // "" -> none was told
     double fraction;
@@ -45,7 +58,6 @@ worker_stage worker_at(worker *w);
 
 bool worker_is_stopped(const worker *w);
 void worker_tell(worker *w, const char *stage, double fraction);
-ag_log worker_log(worker *w, ag_log_level level);
 ag_progress worker_progress(worker *w); // tells, and ends calls when the worker is stopped
 
 #endif
