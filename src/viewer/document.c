@@ -48,11 +48,12 @@ static int64_t folder_size(const char *path, int depth)
 }
 
 // A .gltf file has its textures beside it.
-static bool is_large(const char *input, int64_t size)
+static bool is_large(const char *input)
 {
     const char *end = strrchr(input, '.'), *slash = strrchr(input, '/');
+    int64_t changed_ns, size;
     if (!end || strcmp(end, ".gltf") != 0)
-        return size >= DRAFT_BYTES;
+        return look_at(input, &changed_ns, &size) && size >= DRAFT_BYTES;
     char folder[INPUT_MAX];
     snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - input) : 1, slash ? input : ".");
     return folder_size(folder, 1) >= DRAFT_BYTES;
@@ -63,6 +64,7 @@ static bool is_large(const char *input, int64_t size)
 static ag_status load_job(void *context, worker *self)
 {
     loading *l = context;
+    l->draft = l->may_draft && is_large(l->input);
     const ag_log log = crew_log(l->crew, l->setup->level);
     const ag_progress progress = worker_progress(self);
     return l->setup->open(l->setup->user, l->input, l->draft, &log, &progress, &l->document);
@@ -94,7 +96,7 @@ void document_load(viewer *v, const char *input, bool keeps_view)
     v->watching = (watching) { .next = is_file(l->input) ? v->now + watch_s : 0 };
     watching *w = &v->watching;
     w->gone = !look_at(l->input, &w->changed_ns, &w->size);
-    l->draft = !keeps_view && !w->gone && is_large(l->input, w->size);
+    l->may_draft = !keeps_view && !w->gone;
     begin(v);
 }
 
@@ -121,31 +123,73 @@ static void set_view(viewer *v, const viewer_document *d)
     v->eye.exposure = d->look.exposure > 0 ? d->look.exposure : ag_scene_exposure(d->scene);
 }
 
+// What was made of a draft is made of the whole scene, too.
+static ag_status edit_again(const ag_scene *draft, ag_scene *whole)
+{
+    ag_status status = AG_OK;
+    ag_light_desc light;
+    ag_material_desc edited, material;
+    for (size_t i = 0; !status && ag_scene_light(draft, i, &light); i++)
+        status = ag_scene_set_light(whole, (ag_light) { (uint32_t)i + 1 }, &light);
+    for (size_t i = 0; !status && ag_scene_material(draft, i, &edited); i++) {
+        if (!ag_scene_material(whole, i, &material))
+            break;
+        material.roughness = edited.roughness;
+        material.metallic = edited.metallic;
+        status = ag_scene_set_material(whole, (ag_material) { (uint32_t)i + 1 }, &material);
+    }
+    return status;
+}
+
+// The rest of a draft comes, and has the same lights and materials.
+static bool completes(const viewer *v)
+{
+    if (!v->drafted || v->loading.draft || !v->loading.keeps_view)
+        return false;
+    ag_scene_summary draft = v->shown.scene, whole = ag_scene_summarize(v->loading.document.scene);
+    return draft.lights == whole.lights && draft.materials == whole.materials;
+}
+
+// What the user has picked and changed.
+static void take_over_edits(viewer *v)
+{
+    ag_status status = AG_OK;
+    bool same = completes(v);
+    if (v->edited && same)
+        status = edit_again(v->document.scene, v->loading.document.scene);
+    if (v->edited && v->drafted && v->loading.keeps_view && (!same || status))
+        viewer_say(v, true, "%s is another file now; what was changed is lost", v->shown.file);
+    v->edited &= same;
+    if (same)
+        return;
+    v->picked = v->hovered = (selection) { 0 };
+    v->change = (change) { 0 };
+}
+
 static void swap(viewer *v)
 {
     loading *l = &v->loading;
     ag_render_options look = v->document.look;
     bool keeps = l->keeps_view && v->document.scene;
     tracer_forget(v->tracer);
+    if (v->message.alarm)
+        v->message.until = 0; // what was wrong is replaced
+    take_over_edits(v);
     ag_scene_destroy(v->document.scene);
     v->document = l->document;
     l->document = (viewer_document) { 0 };
     l->ready = false;
-    if (v->message.alarm)
-        v->message.until = 0; // what was wrong is replaced
     if (keeps)
         v->document.look = look;
     v->shown.scene = ag_scene_summarize(v->document.scene);
     if (!keeps)
         set_view(v, &v->document);
     v->drafted = l->draft;
-    v->picked = v->hovered = (selection) { 0 };
-    v->change = (change) { 0 };
     v->first = true;
     set_title(v);
     viewer_redraw(v);
     if (l->draft) { // all of it, from where the user has gone meanwhile
-        l->draft = false;
+        l->may_draft = false;
         l->keeps_view = true;
         begin(v);
     }

@@ -13,10 +13,10 @@ static const float first_radius_m = 0.05f; // of a point light that becomes a sp
 
 // ---- What is there -----------------------------------------------------------
 
-static float instance_radius(const viewer *v, ag_instance instance)
+static float instance_radius(const ag_scene *scene, ag_instance instance)
 {
     ag_instance_info info;
-    if (!ag_scene_instance(v->document.scene, instance.id - 1, &info))
+    if (!ag_scene_instance(scene, instance.id - 1, &info))
         return 1;
     float sum = 0;
     for (int i = 0; i < 3; i++) {
@@ -32,33 +32,80 @@ static float light_radius(const ag_light_desc *l)
     return r > 0 ? r : first_radius_m;
 }
 
-selection picking_at(const viewer *v, const double at[2])
+static selection select_light(const ag_scene *scene, size_t index)
 {
-    selection s = { 0 };
-    ag_pick pick;
-    uint32_t width, height;
-    screen_size(v->screen, &width, &height);
-    if (!v->document.scene || !width || !height || worker_is_busy(v->loading.worker))
-        return s;
-    ag_camera_desc camera = navigation_camera(&v->navigation);
-    if (ag_scene_pick(v->document.scene, &camera, width, height, (float)at[0], (float)at[1],
-                      reach_px * screen_scale(v->screen), &pick) != AG_OK)
-        return s;
-    memcpy(s.place, pick.position, sizeof s.place);
-    if (pick.kind == AG_PICK_LIGHT) {
-        ag_light_desc light;
-        s.kind = PICK_LIGHT;
-        s.index = pick.light.id - 1;
-        if (ag_scene_light(v->document.scene, s.index, &light)) {
-            memcpy(s.place, light.position, sizeof s.place);
-            s.radius = light_radius(&light);
-        }
-    } else if (pick.kind == AG_PICK_SURFACE && pick.material.id) {
-        s.kind = PICK_MATERIAL;
-        s.index = pick.material.id - 1;
-        s.radius = instance_radius(v, pick.instance);
+    ag_light_desc light;
+    selection s = { .kind = PICK_LIGHT, .index = index };
+    if (ag_scene_light(scene, index, &light)) {
+        memcpy(s.place, light.position, sizeof s.place);
+        s.radius = light_radius(&light);
     }
     return s;
+}
+
+// ---- What lies under the pointer -------------------------------------------------
+
+static ag_status look_job(void *context, worker *self)
+{
+    (void)self;
+    looking *l = context;
+    ag_pick pick;
+    ag_status status = ag_scene_pick(l->scene, &l->camera, l->width, l->height, l->place[0],
+                                     l->place[1], l->reach, &pick);
+    if (status)
+        return status;
+    if (pick.kind == AG_PICK_LIGHT) {
+        l->found = select_light(l->scene, pick.light.id - 1);
+    } else if (pick.kind == AG_PICK_SURFACE && pick.material.id) {
+        l->found = (selection) { .kind = PICK_MATERIAL,
+                                 .index = pick.material.id - 1,
+                                 .radius = instance_radius(l->scene, pick.instance) };
+        memcpy(l->found.place, pick.position, sizeof l->found.place);
+    }
+    return AG_OK;
+}
+
+static void begin_look(viewer *v)
+{
+    looking *l = &v->looking;
+    l->at_work = l->wanted;
+    l->wanted = LOOK_NONE;
+    l->scene = v->document.scene;
+    l->camera = navigation_camera(&v->navigation);
+    l->place[0] = (float)l->at[0];
+    l->place[1] = (float)l->at[1];
+    l->reach = reach_px * screen_scale(v->screen);
+    l->found = (selection) { 0 };
+    worker_start(l->worker, look_job, l);
+}
+
+void picking_look(viewer *v, look_use use, const double at[2])
+{
+    looking *l = &v->looking;
+    screen_size(v->screen, &l->width, &l->height);
+    l->wanted = v->document.scene && l->width && l->height ? use : LOOK_NONE;
+    l->at[0] = at[0];
+    l->at[1] = at[1];
+    if (l->wanted && !worker_is_busy(l->worker))
+        begin_look(v);
+}
+
+void picking_collect(viewer *v)
+{
+    looking *l = &v->looking;
+    ag_status status;
+    if (!worker_collect(l->worker, &status))
+        return;
+    look_use use = l->at_work;
+    l->at_work = LOOK_NONE;
+    pointer_found(v, use, l->found);
+    if (l->wanted)
+        begin_look(v);
+}
+
+bool picking_holds(const viewer *v)
+{
+    return v->looking.wanted > LOOK_HOVER || v->looking.at_work > LOOK_HOVER;
 }
 
 void picking_pick(viewer *v, selection what)
@@ -87,9 +134,7 @@ void picking_next_light(viewer *v)
         next = 0;
         (void)ag_scene_light(scene, next, &light);
     }
-    selection s = { .kind = PICK_LIGHT, .index = next, .radius = light_radius(&light) };
-    memcpy(s.place, light.position, sizeof s.place);
-    picking_pick(v, s);
+    picking_pick(v, select_light(scene, next));
 }
 
 // ---- Changes -----------------------------------------------------------------
@@ -165,6 +210,7 @@ void picking_step(viewer *v)
     ag_status status = apply(v); // a failure is told, and the scene is as it was
     (void)status;
     v->change = (change) { 0 };
+    v->edited = true;
     v->moved = v->now;
     viewer_redraw(v);
 }

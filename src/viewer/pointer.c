@@ -13,15 +13,12 @@ static bool on_split(const viewer *v, const double at[2])
     return v->truth.wanted && fabs(at[0] - v->truth.split * width) <= near;
 }
 
-static drag left_drag(const viewer *v, const screen_event *e)
+static drag left_drag(viewer *v, const screen_event *e)
 {
     if (on_split(v, e->at))
         return DRAG_SPLIT;
-    if (v->picked.kind == PICK_LIGHT) {
-        selection under = picking_at(v, e->at);
-        if (under.kind == PICK_LIGHT && under.index == v->picked.index)
-            return DRAG_LIGHT;
-    }
+    if (v->picked.kind == PICK_LIGHT)
+        picking_look(v, LOOK_PRESS, e->at); // it may be the light that is meant
     return e->modifiers & KEY_SHIFT ? DRAG_PAN : DRAG_TURN;
 }
 
@@ -45,7 +42,7 @@ static void release(viewer *v, const screen_event *e)
     if (e->button != p->button)
         return;
     if (e->button == SCREEN_LEFT && p->drag && !p->moved)
-        picking_pick(v, picking_at(v, e->at));
+        picking_look(v, LOOK_CLICK, e->at);
     if (p->drag == DRAG_LOOK)
         navigation_fly(&v->navigation, 0, 0, 0);
     p->drag = DRAG_NONE;
@@ -109,6 +106,25 @@ void pointer_event(viewer *v, const screen_event *e)
         v->rests_at = v->now + rest_s;
 }
 
+static void rest_on(viewer *v, selection what)
+{
+    what.hovers = true;
+    if (what.kind != v->hovered.kind || what.index != v->hovered.index)
+        v->layers_stale = true;
+    v->hovered = what;
+}
+
+void pointer_found(viewer *v, look_use use, selection what)
+{
+    bool light = what.kind == PICK_LIGHT;
+    if (use == LOOK_HOVER)
+        rest_on(v, what);
+    else if (use == LOOK_CLICK)
+        picking_pick(v, what);
+    else if (light && v->picked.kind == PICK_LIGHT && what.index == v->picked.index)
+        v->pointing.drag = DRAG_LIGHT;
+}
+
 // ---- Steps -------------------------------------------------------------------
 
 static double held(const viewer *v, char more, char less)
@@ -124,17 +140,14 @@ static void fly(viewer *v)
 
 static void hover(viewer *v)
 {
-    if (v->rests_at <= 0 || v->now < v->rests_at)
+    if (v->rests_at <= 0 || v->now < v->rests_at || picking_holds(v))
         return;
     v->rests_at = 0;
     double at[2];
-    selection under = { 0 };
     if (screen_pointer(v->screen, at) && !v->pointing.drag)
-        under = picking_at(v, at);
-    under.hovers = true;
-    if (under.kind != v->hovered.kind || under.index != v->hovered.index)
-        v->layers_stale = true;
-    v->hovered = under;
+        picking_look(v, LOOK_HOVER, at);
+    else
+        pointer_found(v, LOOK_HOVER, (selection) { 0 });
 }
 
 void pointer_step(viewer *v)

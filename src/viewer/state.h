@@ -1,7 +1,7 @@
 // The viewer's state, which only the window's thread touches, and what moves it.
 //
-// The painter, the tracer, the loader and the saver work beside it.  The first two and the last
-// read the scene; it is changed only while none of them is at work (viewer_can_edit).
+// The painter, the tracer, the loader, the saver and the picker work beside it.  All but the
+// loader read the scene; it is changed only while none of them is at work (viewer_can_edit).
 #ifndef VIEWER_STATE_H
 #define VIEWER_STATE_H
 
@@ -20,7 +20,8 @@ typedef struct loading {
     worker *worker;
     crew *crew;
     char input[INPUT_MAX], next[INPUT_MAX]; // next: asked for while another was loading
-    bool draft, keeps_view, next_keeps_view;
+    bool may_draft, draft;                  // draft: what takes long is left out
+    bool keeps_view, next_keeps_view;
     bool ready;       // `document` waits until it may be shown
     ag_status failed; // the last time
     viewer_document document;
@@ -78,6 +79,25 @@ typedef struct selection {
     bool hovers;    // only lies under the pointer
 } selection;
 
+typedef enum look_use {
+    LOOK_NONE = 0,
+    LOOK_HOVER, // what the pointer rests on
+    LOOK_PRESS, // what a button goes down on
+    LOOK_CLICK,
+} look_use;
+
+// What lies under the pointer is found beside: among millions of triangles it takes a while.
+typedef struct looking {
+    worker *worker;
+    look_use wanted, at_work;
+    double at[2];          // px, where it is wanted
+    const ag_scene *scene; // read while the worker works
+    ag_camera_desc camera;
+    uint32_t width, height; // px
+    float place[2], reach;  // px
+    selection found;
+} looking;
+
 // What is to become of it, as soon as nobody reads the scene.
 typedef struct change {
     bool wanted;
@@ -103,11 +123,13 @@ typedef struct viewer {
     watching watching;
     viewer_document document; // shown; scene NULL: none yet
     bool drafted;             // it lacks what takes long
+    bool edited;              // since it was read
     navigation navigation;
     eye eye;
     pointing pointing;
     truth truth;
     selection picked, hovered;
+    looking looking;
     change change; // of what is picked
     message message;
     hud_state shown;
@@ -176,6 +198,7 @@ void actions_describe(const viewer *v, hud_state *s);
 // ---- pointer.c -----------------------------------------------------------------
 
 void pointer_event(viewer *v, const screen_event *event);
+void pointer_found(viewer *v, look_use use, selection what); // that was looked for
 void pointer_step(viewer *v); // of flying, and what the pointer rests on
 
 // ---- picture.c -----------------------------------------------------------------
@@ -187,7 +210,11 @@ double picture_next(const viewer *v); // s to wait for the next event; below 0: 
 
 // ---- picking.c -----------------------------------------------------------------
 
-selection picking_at(const viewer *v, const double at[2]);
+// Find what lies at a place, in px; pointer_found is told.  Until then events wait, unless the
+// pointer only rests there.
+void picking_look(viewer *v, look_use use, const double at[2]);
+void picking_collect(viewer *v);
+bool picking_holds(const viewer *v); // events wait
 void picking_pick(viewer *v, selection what);
 void picking_next_light(viewer *v);
 void picking_strengthen(viewer *v, double steps); // intensity, roughness

@@ -49,7 +49,8 @@ bool viewer_can_edit(viewer *v)
     if (worker_is_busy(tracer_worker(v->tracer)))
         worker_stop(tracer_worker(v->tracer));
     return !worker_is_busy(painter_worker(v->painter)) &&
-           !worker_is_busy(tracer_worker(v->tracer)) && !worker_is_busy(v->saver);
+           !worker_is_busy(tracer_worker(v->tracer)) && !worker_is_busy(v->saver) &&
+           !worker_is_busy(v->looking.worker);
 }
 
 // ---- What the threads say --------------------------------------------------------
@@ -124,8 +125,10 @@ static ag_status create_parts(viewer *v)
     v->loading.crew = v->crew;
     v->loading.setup = setup;
     v->saver = worker_create(v->crew);
+    v->looking.worker = worker_create(v->crew);
     v->frame_ms = calloc(setup->frames + 1ul, sizeof *v->frame_ms);
-    if (!v->painter || !v->tracer || !v->loading.worker || !v->saver || !v->frame_ms)
+    if (!v->painter || !v->tracer || !v->loading.worker || !v->saver || !v->looking.worker ||
+        !v->frame_ms)
         return no_memory(v);
     const uint8_t white[4] = { 255, 255, 255, 255 };
     const ag_image_desc pixel = { 1, 1, AG_FORMAT_RGBA8, white };
@@ -143,6 +146,7 @@ static void destroy_parts(viewer *v)
     painter_destroy(v->painter);
     tracer_destroy(v->tracer);
     worker_destroy(v->saver);
+    worker_destroy(v->looking.worker);
     worker_destroy(v->loading.worker);
     hud_destroy(v->hud);
     ag_scene_destroy(v->loading.document.scene);
@@ -160,7 +164,7 @@ static void destroy_parts(viewer *v)
 static void handle_events(viewer *v)
 {
     screen_event event;
-    while (screen_event_next(v->screen, &event)) {
+    while (!picking_holds(v) && screen_event_next(v->screen, &event)) {
         if (!v->asks)
             v->asked = v->orders;
         v->asks = true;
@@ -183,6 +187,7 @@ static void run(viewer *v)
     while (!v->quits) {
         v->now = screen_time();
         hear(v);
+        picking_collect(v);
         handle_events(v);
         actions_collect(v); // first who is done: then the scene may be changed
         picture_collect(v);

@@ -15,18 +15,22 @@ def started(*options, **more):
     return viewer
 
 
-def written(viewer):
-    """F5: the new file and its scene."""
-    name = viewer.says(r"saved (white-\d+\.glb)", "F5")[1]
-    path = os.path.join(here, name)
-    command("info", path)
+def contents(path):
+    """The JSON of a .glb."""
     with open(path, "rb") as file:
         data = file.read()
-    check(data[:4] == b"glTF", f"{name} is no .glb")
+    check(data[:4] == b"glTF", f"{path} is no .glb")
     length = int.from_bytes(data[12:16], "little")
-    scene = json.loads(data[20 : 20 + length])
+    return json.loads(data[20 : 20 + length])
+
+
+def written(viewer):
+    """F5: the new file and its scene."""
+    name = viewer.says(r"saved (\w+-\d+\.glb)", "F5")[1]
+    path = os.path.join(here, name)
+    command("info", path)
     viewer.rest()
-    return path, scene
+    return path, contents(path)
 
 
 def materials_change_and_are_saved():
@@ -126,6 +130,47 @@ def points_become_spheres():
     v.close()
 
 
+def large(path):
+    """The white cube with a texture, as a large file: a draft of it is shown first."""
+    with open(cube(path, roughness=0.5)) as file:
+        gltf = json.load(file)
+    gltf["images"] = [{"uri": "white.png"}]
+    gltf["textures"] = [{"source": 0}]
+    gltf["materials"][4]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+    with open(path, "w") as file:
+        json.dump(gltf, file)
+    folder = os.path.dirname(path)
+    command("render", "demo:furnace", "--size", "8x8", "-o", os.path.join(folder, "white.png"))
+    with open(os.path.join(folder, "large.bin"), "wb") as file:
+        file.truncate(9 << 20)
+    return path
+
+
+def edits_of_a_draft_are_kept():
+    hold = os.path.join(here, "hold")
+    open(hold, "w").close()
+    v = Viewer(large(os.path.join(here, "large.gltf")), *FRONT_VIEW, *LIGHT,
+               preload=(os.environ["ARGAND_TEST_HELD_FILES"],), ARGAND_TEST_HOLD=hold)
+    v.shown()
+    v.click(120, 110)
+    v.key("Up", "Up", "Right")
+    v.key("l", "Up")
+    v.says("not yet there with all its textures", "F5")
+    since = v.mark()
+    os.unlink(hold)
+    v.heard("shown: ", since)
+    _, scene = written(v)
+    found = scene["materials"][4]["pbrMetallicRoughness"]
+    check("baseColorTexture" in found, "the texture did not come")
+    check(abs(found["roughnessFactor"] - 0.6) < 1e-5, f"roughness {found}")
+    check(abs(found["metallicFactor"] - 0.05) < 1e-5, f"metalness {found}")
+    v.key("Up")  # the light is still picked
+    _, scene = written(v)
+    (light,) = scene["extensions"]["ARGAND_lights"]["lights"]
+    check(abs(light["intensity"] / (3 * 1.25**2) - 1) < 1e-4, f"intensity: {light}")
+    v.close()
+
+
 def lights_come_in_turn():
     two = ("--light", "sphere at=-0.4,0,2 radius=0.05 intensity=3",
            "--light", "sphere at=0.4,0,2 radius=0.05 intensity=3")
@@ -146,4 +191,5 @@ run(
     lights_are_dragged,
     points_become_spheres,
     lights_come_in_turn,
+    edits_of_a_draft_are_kept,
 )
