@@ -7,8 +7,8 @@
 // - what it loses, 1 - E, bounces on: the series of Fdez-Aguera 2019, eqs. 13-18, after Kulla
 //   & Conty 2017.  They let E of it leave after every bounce and reflect the mean of F; here
 //   sqrt(E) leaves after each but the first, facets are met more aslant, and the extra light
-//   leaves with a distribution that is linear in its direction: ours, fits to random walks
-//   (tests/physics/many_bounces.c).  White metal reflects all;
+//   leaves with a distribution that is linear in its direction, each channel with its own: ours,
+//   fits to random walks (tests/physics/many_bounces.c).  White metal reflects all;
 // - the base receives what the lobe leaves: 1 - (albedo of the whole lobe), as Cycles and
 //   other path tracers do.  It depends on wo alone: the sum is not reciprocal, its parts are.
 // The furnace closes exactly, as far as the table does.
@@ -76,7 +76,8 @@ STRUCT(surface) {
     vec3 lambert; // albedo of the base, if it leaves with Lambert's distribution
     vec3 single;  // albedo of the lobe, first bounce
     vec3 bounced; // the same, all others
-    vec2 lean;    // of their light: upwards, and forwards
+    vec3 upwards; // how their light leans
+    vec3 forwards;
     vec3 f0;
     real f90;
     real a2; // alpha^2; anisotropic: along the tangent
@@ -135,16 +136,18 @@ static inline vec3 surface_lobe(surface s, real plain, real grazing)
 }
 
 // The mean of (1 - v.h)^5 after the first bounce: light that was caught is low and meets facets
-// aslant; over the hemisphere it is 1/21.  A fit to random walks.
-static inline real surface_aslant(real alpha)
+// aslant, least so what leaves upwards; over the hemisphere it is 1/21.  A fit to random walks.
+static inline real surface_aslant(real f0, real NoV, real alpha)
 {
-    return 0.284f - 0.239f * alpha;
+    real smooth_by = 1.0f - alpha;
+    real s3 = smooth_by * smooth_by * smooth_by;
+    return (0.1f + smooth_by * (0.24f + 0.58f * s3)) * (1.0f - 0.55f * NoV * (1.0f + f0));
 }
 
-static inline vec3 surface_fresnel_again(surface s, real alpha)
+// Of facets at `grazing`, the mean of (1 - v.h)^5.
+static inline vec3 surface_fresnel_again(surface s, vec3 grazing)
 {
-    real w = surface_aslant(alpha);
-    vec3 f = s.f0 * (1.0f - w) + vec3(s.f90, s.f90, s.f90) * w;
+    vec3 f = s.f0 + grazing * (vec3(s.f90, s.f90, s.f90) - s.f0);
     if ((s.model & SURFACE_FRESNEL) == SURFACE_F82)
         f = f - s.dip / 126.0f;
     if ((s.model & SURFACE_FRESNEL) == SURFACE_CONDUCTOR)
@@ -179,9 +182,9 @@ static inline vec3 surface_passed(surface s, real VoH)
 
 // The BRDF of further bounces times pi, of their albedo: 1 on average over the hemisphere.  Linear
 // in the light's direction, and so right for lights of extent by their mean direction.
-static inline real surface_bounced_shape(surface s, real NoV, real NoL, real LoV)
+static inline vec3 surface_bounced_shape(surface s, real NoV, real NoL, real LoV)
 {
-    return 1.0f + s.lean[0] * (NoL - 2.0f / 3.0f) - s.lean[1] * (LoV - NoL * NoV);
+    return 1.0f + (NoL - 2.0f / 3.0f) * s.upwards - (LoV - NoL * NoV) * s.forwards;
 }
 
 // The BRDF of all that is not the first bounce of the lobe, 1/sr.
@@ -269,22 +272,40 @@ static inline real surface_bounced(real mean, real lost)
 
 // What of the base is seen, by the lobe's albedo: by the greatest of its channels, so that a
 // coloured lobe does not give the base the opposite colour (KHR_materials_specular).
-static inline real surface_left_by(vec3 f0, real f90, vec2 dfg, real lost, real alpha)
+static inline real surface_left_by(vec3 f0, real f90, vec2 dfg, real lost, real NoV, real alpha)
 {
     real f = max(max(f0[0], f0[1]), f0[2]);
-    real mean = mix(f, f90, surface_aslant(alpha));
+    real mean = mix(f, f90, surface_aslant(f, NoV, alpha));
     return 1.0f - (f * dfg[0] + f90 * dfg[1]) * (1.0f + surface_bounced(mean, lost));
 }
 
-// The first moments of the light that leaves after further bounces: at alpha below .5 it goes on
-// low and forwards, above it is round and a little upright.  Fits to random walks, held where
-// the distribution would be negative.
-static inline vec2 surface_lean(real alpha, real NoV)
+// The first moments of the light that leaves after further bounces, upwards and forwards: the
+// smoother the surface and the greater the share of Fresnel's rise in what its facets reflect,
+// `grazed`, the more goes on low and forwards; the rest is round and a little upright.  Fits to
+// random walks, held where the distribution would be negative.
+static inline vec2 surface_lean(real alpha, real NoV, real grazed)
 {
     real smooth_by = 1.0f - alpha;
     real s3 = smooth_by * smooth_by * smooth_by;
-    real up = NoV * (1.05f + 0.68f * smooth_by) - 0.25f - 6.2f * s3 * smooth_by;
-    return vec2(max(up, -1.6f), min(3.34f * s3, 1.2f));
+    real up = max(1.75f * sqrt(NoV) - 0.78f - 2.8f * (s3 + grazed), -2.0f);
+    real most = min(1.0f - max(2.0f / 3.0f * up, 0.5f * up), 1.2f);
+    return vec2(up, min(2.1f * s3 + 2.5f * smooth_by * grazed, most));
+}
+
+static inline surface surface_bounce(surface s, real lost, real NoV, real alpha)
+{
+    vec3 grazing = vec3(surface_aslant(s.f0[0], NoV, alpha), surface_aslant(s.f0[1], NoV, alpha),
+                        surface_aslant(s.f0[2], NoV, alpha));
+    vec3 mean = surface_fresnel_again(s, grazing);
+    s.bounced = s.single * vec3(surface_bounced(mean[0], lost), surface_bounced(mean[1], lost),
+                                surface_bounced(mean[2], lost));
+    vec3 grazed = grazing * (vec3(s.f90, s.f90, s.f90) - s.f0) / max(mean, 1e-6f);
+    vec2 r = surface_lean(alpha, NoV, grazed[0]);
+    vec2 g = surface_lean(alpha, NoV, grazed[1]);
+    vec2 b = surface_lean(alpha, NoV, grazed[2]);
+    s.upwards = vec3(r[0], g[0], b[0]);
+    s.forwards = vec3(r[1], g[1], b[1]);
+    return s;
 }
 
 // The base where it is not part of `lambert`.
@@ -335,16 +356,13 @@ static inline surface surface_from_metallic_roughness(surface_material m, real N
     if ((m.model & SURFACE_SINGLE_BOUNCE) != 0u ||
         (m.model & SURFACE_DISTRIBUTION) == SURFACE_BLINN)
         lost = 0.0f;
-    vec3 mean = surface_fresnel_again(s, alpha);
     s.single = surface_lobe(s, dfg[0], dfg[1]);
-    s.bounced = s.single * vec3(surface_bounced(mean[0], lost), surface_bounced(mean[1], lost),
-                                surface_bounced(mean[2], lost));
-    s.lean = surface_lean(alpha, NoV);
+    s = surface_bounce(s, lost, NoV, alpha);
 
     uint layering = m.model & SURFACE_LAYERING;
     real weight = 1.0f - m.metallic;
     if (layering == SURFACE_LAYERED_BY_ALBEDO)
-        weight = weight * surface_left_by(f0, m.specular, dfg, lost, alpha);
+        weight = weight * surface_left_by(f0, m.specular, dfg, lost, NoV, alpha);
     if (layering == SURFACE_BLENDED) {
         weight = 1.0f - m.reflectiveness;
         s = surface_blend(s, m.reflectiveness);

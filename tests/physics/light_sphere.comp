@@ -21,7 +21,8 @@ void main()
     s.model = 0u;
     s.lambert = vec3(.1);
     s.bounced = vec3(.01);
-    s.lean = vec2(-.5, .5);
+    s.upwards = vec3(-.5);
+    s.forwards = vec3(.5);
     s.f0 = vec3(.04);
     s.f90 = 1;
     s.a2 = .1;

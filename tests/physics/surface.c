@@ -227,9 +227,9 @@ static void no_surface_makes_light(void **state)
 static void bounces_sum_to_their_series(void **state)
 {
     (void)state;
-    // Schlick's rise to f90 = 1 lifts the mean by .045 (1 - f) at roughness 1, after the first
-    // bounce.
-    double f = 0.6, mean = f + (1.0 - f) * 0.045, e = 0.55;
+    // Schlick's rise to f90 = 1 lifts the mean, at roughness 1 by .1 (1 - .55 (1 + f)) (1 - f)
+    // straight on, after the first bounce.
+    double f = 0.6, mean = f + (1.0 - f) * 0.1 * (1.0 - 0.55 * (1.0 + f)), e = 0.55;
     double series = f * e, left = f * (1.0 - e);
     for (int i = 0; i < 200;
          i++) { // hit a facet, keep its share; some escapes, the rest hits again
