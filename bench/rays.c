@@ -7,6 +7,7 @@
 // samples with all that is done for them.
 #include "physics/sampling.glsl"
 #include "scene/picture.h"
+#include "trace/eye.h"
 #include "trace/place.h"
 #include "trace/sampler.h"
 #include "trace/world.h"
@@ -39,22 +40,6 @@ static double process_s(void)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-static vec3 loaded(const float v[3])
-{
-    return vec3(v[0], v[1], v[2]);
-}
-
-static ray eye_ray(const view *v, float x, float y)
-{
-    vec3 d = loaded(v->forward) + (2 * x / SIZE - 1) * v->half_x * loaded(v->right) +
-             (1 - 2 * y / SIZE) * v->half_y * loaded(v->up);
-    return (ray) { .origin = loaded(v->eye),
-                   .direction = normalize(d),
-                   .near = v->near_m,
-                   .far = INFINITY,
-                   .from_eye = true };
-}
-
 static ray bounce(const world *w, const ray *r, const hit *h, sampler *dice)
 {
     place p = place_at(w, h, -r->direction);
@@ -71,17 +56,23 @@ static void trace_eye(const world *w, const view *v, bouncing *b)
     double spent = 0;
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
-            ray rays[WORLD_PACKET];
+            eye_samples samples;
+            for (uint32_t i = 0; i < WORLD_PACKET; i++) {
+                samples.x[i] = (uint32_t)x;
+                samples.y[i] = (uint32_t)y;
+                samples.index[i] = i;
+                samples.seed[i] = (uint32_t)(y * SIZE + x);
+            }
+            ray_packet rays;
             hit hits[WORLD_PACKET];
-            for (int i = 0; i < WORLD_PACKET; i++)
-                rays[i] = eye_ray(v, (float)x + ((float)i + 0.5f) / 8,
-                                  (float)y + ((float)(i * 3 % 8) + 0.5f) / 8);
+            eye_rays(v, &samples, &rays);
             double start = cpu_s();
-            unsigned met = world_closest_packet(w, rays, WORLD_PACKET, hits);
+            unsigned met = world_closest_packet(w, &rays, WORLD_PACKET, hits);
             spent += cpu_s() - start;
             sampler dice = { (uint32_t)x, (uint32_t)y, 0 };
+            const ray first = world_ray(&rays, 0);
             if (met & 1)
-                b->rays[b->count++] = bounce(w, &rays[0], &hits[0], &dice);
+                b->rays[b->count++] = bounce(w, &first, &hits[0], &dice);
         }
     printf("eye      %6.2f million/s\n", SIZE * SIZE * 8e-6 / spent);
 }

@@ -180,6 +180,30 @@ static ag_status add_instance(emitters *e, listing *l, uint32_t instance)
     return status;
 }
 
+static float power_of(const emitters *e, size_t index)
+{
+    return e->sums[index + 1] - e->sums[index];
+}
+
+static vec3 middle(const emitter *t)
+{
+    return (t->a + t->b + t->c) / 3;
+}
+
+static void set_center(emitters *e)
+{
+    if (!e->count)
+        return;
+    vec3 sum = { 0, 0, 0, 0 };
+    for (size_t i = 0; i < e->count; i++)
+        sum += power_of(e, i) / e->sums[e->count] * middle(&e->all[i]);
+    e->center = sum;
+    for (size_t i = 0; i < e->count; i++) {
+        vec3 off = middle(&e->all[i]) - e->center;
+        e->spread2 += power_of(e, i) / e->sums[e->count] * dot(off, off);
+    }
+}
+
 // guides[k] = the last item that begins at or before the share k / count of the sum.
 static ag_status set_guides(emitters *e)
 {
@@ -209,6 +233,7 @@ ag_status emitters_init(const world *w, emitters *e)
             status = add_instance(e, &l, (uint32_t)i);
     if (!status)
         status = set_guides(e);
+    set_center(e);
     if (status)
         emitters_finish(e);
     return status;
@@ -223,6 +248,13 @@ void emitters_finish(emitters *e)
     free(e->sums);
     free(e->guides);
     *e = (emitters) { 0 };
+}
+
+// Power is twice area times radiance; the mean of a cosine that counts on one side is 1/4.
+float emitters_irradiance(const emitters *e, vec3 at)
+{
+    vec3 to = e->center - at;
+    return e->count ? e->sums[e->count] / (32 * (dot(to, to) + e->spread2)) : 0;
 }
 
 // ---- Drawing ---------------------------------------------------------------------
@@ -248,7 +280,7 @@ static size_t find(const emitters *e, float share)
 // Per solid angle, of a place that was drawn by area.
 static float density_of(const emitters *e, size_t index, vec3 direction, float distance)
 {
-    float chance = (e->sums[index + 1] - e->sums[index]) / e->sums[e->count];
+    float chance = power_of(e, index) / e->sums[e->count];
     float seen = 0.5f * fabsf(dot(e->all[index].area, direction)); // area times cosine
     return seen > 0 ? chance * distance * distance / seen : 0;
 }

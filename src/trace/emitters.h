@@ -17,10 +17,16 @@ typedef struct emitters {
     float *sums;      // [count + 1], running, of power
     uint32_t *guides; // [count + 1]: where even steps through the sum begin
     uint32_t **where; // [instances][triangles]: in `all`, UINT32_MAX: it is dark; NULL: all are
+    vec3 center;      // of power, and the mean square of the distance from it
+    float spread2;
 } emitters;
 
 AG_CHECK ag_status emitters_init(const world *w, emitters *e);
 void emitters_finish(emitters *e); // zero is allowed
+
+// What arrives of them at a place, roughly: irradiance without shadows, the mean over all ways that
+// it and they may face.
+float emitters_irradiance(const emitters *e, vec3 at);
 
 // A place on one, seen from `from`.
 typedef struct emitter_found {

@@ -8,6 +8,7 @@
 
 #include "physics/color.glsl"
 #include "trace/bsdf.h"
+#include "trace/eye.h"
 #include "trace/sampler.h"
 
 // Pictures hold no more: interop/scene.glsl.
@@ -15,6 +16,10 @@ static const float BRIGHTEST = 60000;
 
 // Surfaces before Russian roulette.
 enum { CERTAIN = 3 };
+
+// Emitters that give a place less than this share of what the sky gives are looked for less often,
+// down to one time in sixteen.
+static const float FAINT = 0.125f, SELDOM = 0.0625f;
 
 // Light that arrives if nothing stands in its way.
 typedef struct pending {
@@ -33,11 +38,12 @@ typedef struct path {
                         // asked for
     vec3 sky_share;     // the same, if the environment is met next
     uint32_t scattered; // how many surfaces have sent on the light that is added now
-    path_result result;
+    path_result *result;
     hit hit;
     bsdf bsdf; // of the surface that it stands on
     lit_place lit;
-    float lights; // lights_weight() of the place
+    float lights;   // lights_weight() of the place
+    float emitters; // how often they are looked for there
     pending pending[PENDING];
     uint32_t pending_count;
     vec3 direction; // it goes on in, and its density
@@ -63,17 +69,9 @@ static void add(path *p, vec3 light)
     if (limit > 0 && most > limit)
         light = light * (limit / most);
     if (p->scattered < 2)
-        p->result.direct += light;
+        p->result->direct += light;
     else
-        p->result.indirect += light;
-}
-
-// What shines into the eye itself.
-static void add_seen(path *p, vec3 light)
-{
-    p->result.alpha = 1;
-    if (wants(p, AG_PART_SEEN))
-        p->result.direct += min(exposed(p->scene, light), BRIGHTEST);
+        p->result->indirect += light;
 }
 
 // ---- Weights -----------------------------------------------------------------------
@@ -109,18 +107,14 @@ static float weight_of_surface(const path *p, float a, float b)
 
 // ---- Rays --------------------------------------------------------------------------
 
-static uint32_t roll(const path *p)
-{
-    return sampler_mix(p->dice.seed, sampler_mix(p->dice.index, p->dice.drawn));
-}
-
 // Light that the place sends on if `direction` is open.
 static void await(path *p, vec3 direction, float distance, vec3 light)
 {
     if (p->scene->options.unshadowed)
         add(p, light);
     else
-        p->pending[p->pending_count++] = (pending) { direction, light, distance, roll(p) };
+        p->pending[p->pending_count++] =
+            (pending) { direction, light, distance, sampler_roll(&p->dice) };
 }
 
 static void settle(path *p)
@@ -130,7 +124,7 @@ static void settle(path *p)
                         .direction = p->pending[i].direction,
                         .far = p->pending[i].distance,
                         .dice = p->pending[i].dice };
-        p->result.rays++;
+        p->result->rays++;
         if (!world_blocked(&p->scene->world, &r))
             add(p, p->pending[i].light);
     }
@@ -188,8 +182,10 @@ static void light_by_emitters(path *p)
     float pick = sampler_number(&p->dice);
     vec2 u = sampler_pair(&p->dice);
     emitter_found found;
-    if (!emitters_sample(&p->scene->emitters, p->lit.position, pick, u, &found))
+    if (pick >= p->emitters ||
+        !emitters_sample(&p->scene->emitters, p->lit.position, pick / p->emitters, u, &found))
         return;
+    found.density *= p->emitters;
     scattered s = bsdf_evaluate(&p->bsdf, found.direction);
     vec3 f = s.f.base + s.f.lobe;
     if (!(greatest(f) > 0))
@@ -233,7 +229,7 @@ static void add_sky(path *p)
 static void add_emission(path *p, vec3 light)
 {
     if (!p->scene->options.unshadowed && wants(p, AG_PART_EMITTED) && greatest(light) > 0) {
-        float density = emitters_density(&p->scene->emitters, &p->hit, p->direction);
+        float density = p->emitters * emitters_density(&p->scene->emitters, &p->hit, p->direction);
         add(p, p->throughput * light * weight_of_surface(p, p->density, density));
     }
 }
@@ -242,13 +238,21 @@ static void add_emission(path *p, vec3 light)
 //
 // Each says whether the path goes on.
 
+static float emitters_at(const path *p, vec3 position)
+{
+    float sky = wants_sky(p) ? sky_irradiance(&p->scene->sky) : 0;
+    float found = emitters_irradiance(&p->scene->emitters, position);
+    return found < FAINT * sky ? max(found / (FAINT * sky), SELDOM) : 1;
+}
+
 static void stand_on(path *p, const place *at)
 {
     p->bsdf = bsdf_at(&p->scene->albedo, at, -p->direction);
     if (p->scattered == 0)
-        p->result.albedo = surface_albedo(p->bsdf.s) + p->bsdf.s.single;
+        p->result->albedo = surface_albedo(p->bsdf.s) + p->bsdf.s.single;
     p->lit = (lit_place) { at->origin, at->normal };
     p->lights = wants(p, AG_PART_LIGHTS) ? lights_weight(&p->scene->lights, &p->lit) : 0;
+    p->emitters = wants_emitters(p) ? emitters_at(p, at->origin) : 0;
     p->scattered++;
 }
 
@@ -326,13 +330,14 @@ static bool is_last(const path *p)
 // To the next surface, and the light that is met before.
 static bool go_on(path *p)
 {
-    const ray r = {
-        .origin = p->lit.position, .direction = p->direction, .far = INFINITY, .dice = roll(p)
-    };
+    const ray r = { .origin = p->lit.position,
+                    .direction = p->direction,
+                    .far = INFINITY,
+                    .dice = sampler_roll(&p->dice) };
     bool met = false;
     if (!p->scene->options.unshadowed) {
         met = world_closest(&p->scene->world, &r, &p->hit);
-        p->result.rays++;
+        p->result->rays++;
     }
     if (p->lights > 0)
         lights_along(&p->scene->lights, &p->lit, p->lights, p->direction,
@@ -368,55 +373,34 @@ static vec3 loaded(const float v[3])
     return vec3(v[0], v[1], v[2]);
 }
 
-// Through a place of the pixel that its filter drew: that of quality `best`.
-static ray eye_ray(path *p, uint32_t x, uint32_t y)
+// What shines into the eye itself.
+static void add_seen(const path_scene *s, path_result *result, vec3 light)
 {
-    const view *v = &p->scene->view;
-    vec2 at = sampling_gaussian(sampler_pair(&p->dice), 0.47f, 1.5f);
-    float clip_x = 2 * ((float)x + 0.5f + at[0]) / (float)v->width - 1;
-    float clip_y = 1 - 2 * ((float)y + 0.5f + at[1]) / (float)v->height;
-    vec3 off = clip_x * v->half_x * loaded(v->right) + clip_y * v->half_y * loaded(v->up);
-    vec3 forward = loaded(v->forward), eye = loaded(v->eye);
-    ray r = { .origin = eye, .direction = forward, .from_eye = true };
-    if (v->orthographic)
-        r.origin = eye + off;
-    else
-        r.direction = normalize(forward + off);
-    float along = dot(r.direction, forward);
-    r.near = max(v->near_m, 0.0f) / along;
-    r.far = v->far_m / along;
-    r.dice = roll(p);
-    return r;
+    result->alpha = 1;
+    if (s->picture.parts & AG_PART_SEEN)
+        result->direct += min(exposed(s, light), BRIGHTEST);
 }
 
-static bool see_body(path *p, const ray *r, bool met)
+static bool see_body(const path_scene *s, const ray *r, const hit *met, path_result *result)
 {
     vec3 radiance;
-    bool suns = !met && p->scene->picture.background == AG_BACKGROUND_ENVIRONMENT;
-    if (!lights_seen(&p->scene->lights, r->origin, r->direction, r->near,
-                     met ? p->hit.distance : r->far, suns, &radiance))
+    bool suns = !met && s->picture.background == AG_BACKGROUND_ENVIRONMENT;
+    if (!lights_seen(&s->lights, r->origin, r->direction, r->near, met ? met->distance : r->far,
+                     suns, &radiance))
         return false;
-    add_seen(p, radiance);
+    add_seen(s, result, radiance);
     return true;
 }
 
-// What the eye sees first; true where a path begins there.
-static bool see(path *p, const ray *r, bool met)
+// True where the path begins at the first surface.
+static bool see_surface(path *p, const ray *r)
 {
-    const view *v = &p->scene->view;
+    const path_scene *s = p->scene;
+    place at = place_at(&s->world, &p->hit, -r->direction);
     p->direction = r->direction;
-    p->result.rays++;
-    if (see_body(p, r, met))
-        return false;
-    if (!met) {
-        if (p->scene->picture.background == AG_BACKGROUND_ENVIRONMENT)
-            add_seen(p, sky_at(&p->scene->sky, r->direction).radiance);
-        return false;
-    }
-    place at = place_at(&p->scene->world, &p->hit, -r->direction);
-    p->result.depth = dot(at.position - loaded(v->eye), loaded(v->forward));
-    p->result.normal = at.unlit ? at.face : at.normal;
-    add_seen(p, at.unlit ? at.base_color : at.emission);
+    p->result->depth = dot(at.position - loaded(s->view.eye), loaded(s->view.forward));
+    p->result->normal = at.unlit ? at.face : at.normal;
+    add_seen(s, p->result, at.unlit ? at.base_color : at.emission);
     if (!at.unlit)
         stand_on(p, &at);
     return !at.unlit;
@@ -431,38 +415,71 @@ typedef struct bundle {
 } bundle;
 
 // What is not set here is set before it is read: a path is large.
-static void begin(path *p, const path_scene *s, sampler dice)
+static void begin(path *p, const path_scene *s, sampler dice, const hit *met, path_result *result)
 {
     p->scene = s;
     p->dice = dice;
     p->throughput = p->part_share = p->sky_share = vec3(1, 1, 1);
     p->scattered = p->pending_count = 0;
-    p->result = (path_result) { 0 };
+    p->hit = *met;
+    p->result = result;
 }
 
-// Samples of one pixel go the same way: they are traced together.
-static void start(bundle *b, const path_scene *s, const path_work *work, path *paths)
+// What a lane's ray meets first; `met` is NULL where that is no surface.
+static void see(bundle *b, const path_scene *s, const ray *r, sampler dice, const hit *met,
+                path_result *result)
 {
-    ray rays[WORLD_PACKET];
+    *result = (path_result) { .rays = 1 };
+    if (s->lights.bodies && see_body(s, r, met, result))
+        return;
+    if (met) {
+        path *p = &b->paths[b->count];
+        begin(p, s, dice, met, result);
+        if (see_surface(p, r))
+            b->live[b->count++] = p;
+    } else if (s->picture.background == AG_BACKGROUND_ENVIRONMENT) {
+        add_seen(s, result, sky_radiance(&s->sky, r->direction));
+    }
+}
+
+static void start_packet(bundle *b, const path_scene *s, const eye_samples *samples, unsigned count,
+                         path_result *results)
+{
+    ray_packet rays;
     hit hits[WORLD_PACKET];
-    uint32_t seed = sampler_mix(sampler_mix(s->options.seed, work->x), work->y);
-    for (uint32_t done = 0; done < work->count; done += WORLD_PACKET) {
-        uint32_t left = work->count - done, count = left < WORLD_PACKET ? left : WORLD_PACKET;
-        for (uint32_t i = 0; i < count; i++) {
-            path *p = &paths[done + i];
-            begin(p, s, (sampler) { work->from + done + i, seed, 0 });
-            rays[i] = eye_ray(p, work->x, work->y);
-        }
-        unsigned met = count == 1 ? world_closest(&s->world, rays, hits)
-                                  : world_closest_packet(&s->world, rays, count, hits);
-        for (uint32_t i = 0; i < count; i++) {
-            path *p = &paths[done + i];
-            if (met >> i & 1)
-                p->hit = hits[i];
-            if (see(p, &rays[i], met >> i & 1))
-                b->live[b->count++] = p;
+    eye_rays(&s->view, samples, &rays);
+    unsigned met = world_closest_packet(&s->world, &rays, count, hits);
+    for (unsigned i = 0; i < count; i++) {
+        const ray r = world_ray(&rays, i);
+        see(b, s, &r, (sampler) { samples->index[i], samples->seed[i], 1 },
+            met >> i & 1 ? &hits[i] : NULL, &results[i]);
+    }
+}
+
+// Samples of neighbours go much the same way: they are traced together.
+static void start(bundle *b, const path_scene *s, const path_work *work, size_t pixels,
+                  path_result *results)
+{
+    eye_samples samples = { 0 };
+    unsigned lane = 0;
+    size_t done = 0;
+    b->count = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        uint32_t seed = sampler_mix(sampler_mix(s->options.seed, work[i].x), work[i].y);
+        for (uint32_t k = 0; k < work[i].count; k++) {
+            samples.x[lane] = work[i].x;
+            samples.y[lane] = work[i].y;
+            samples.index[lane] = work[i].from + k;
+            samples.seed[lane] = seed;
+            if (++lane == WORLD_PACKET) {
+                start_packet(b, s, &samples, lane, &results[done]);
+                done += lane;
+                lane = 0;
+            }
         }
     }
+    if (lane)
+        start_packet(b, s, &samples, lane, &results[done]);
 }
 
 // Take a step with all that live; those that end with it are left out from there.
@@ -478,12 +495,7 @@ static void step(bundle *b, bool (*take)(path *))
 void path_follow(const path_scene *s, const path_work *work, size_t pixels, path_result *results)
 {
     bundle b;
-    size_t count = 0;
-    b.count = 0;
-    for (size_t i = 0; i < pixels; i++) {
-        start(&b, s, &work[i], &b.paths[count]);
-        count += work[i].count;
-    }
+    start(&b, s, work, pixels, results);
     while (b.count) {
         step(&b, ask_lights);
         step(&b, settle_lights);
@@ -491,6 +503,4 @@ void path_follow(const path_scene *s, const path_work *work, size_t pixels, path
         step(&b, go_on);
         step(&b, arrive);
     }
-    for (size_t i = 0; i < count; i++)
-        results[i] = b.paths[i].result;
 }

@@ -70,17 +70,33 @@ static inline uint32_t sampler_place(sampler *s, uint32_t *seed)
     return sampler_reversed(sampler_scrambled(sampler_reversed(s->index), sampler_hash(*seed)));
 }
 
+// The two numbers of a set at a place.
+static inline float sampler_first(uint32_t at, uint32_t seed)
+{
+    return sampler_float(sampler_scrambled(at, sampler_mix(seed, 1)));
+}
+
+static inline float sampler_second(uint32_t at, uint32_t seed)
+{
+    return sampler_float(sampler_scrambled(sampler_sobol(at), sampler_mix(seed, 2)));
+}
+
 static inline vec2 sampler_pair(sampler *s)
 {
     uint32_t seed, at = sampler_place(s, &seed);
-    return vec2(sampler_float(sampler_scrambled(at, sampler_mix(seed, 1))),
-                sampler_float(sampler_scrambled(sampler_sobol(at), sampler_mix(seed, 2))));
+    return vec2(sampler_first(at, seed), sampler_second(at, seed));
 }
 
 static inline float sampler_number(sampler *s)
 {
     uint32_t seed, at = sampler_place(s, &seed);
-    return sampler_float(sampler_scrambled(at, sampler_mix(seed, 1)));
+    return sampler_first(at, seed);
+}
+
+// Dice for one ray: those of no set.
+static inline uint32_t sampler_roll(const sampler *s)
+{
+    return sampler_mix(s->seed, sampler_mix(s->index, s->drawn));
 }
 
 #endif

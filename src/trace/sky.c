@@ -9,6 +9,7 @@
 #include "base/threads.h"
 #include "image/image.h"
 #include "physics/color.glsl"
+#include "trace/elementary.h"
 
 #include <stdlib.h>
 
@@ -16,27 +17,11 @@ enum { COLUMNS_MAX = 1024, ROWS_MAX = 512 };
 
 // ---- What is seen ------------------------------------------------------------------
 
-// The angle of (x, y) to 5e-7 rad, without a call: as wide_atan2 (bake/wide.h).
-static float angle(float y, float x)
-{
-    float ax = fabsf(x), ay = fabsf(y), high = max(ax, ay), low = min(ax, ay);
-    float q = low / max(high, 1e-37f), s = q * q;
-    float p = 0.007648354f * s - 0.036360431f;
-    p = p * s + 0.083126453f;
-    p = p * s - 0.134478641f;
-    p = p * s + 0.198720403f;
-    p = p * s - 0.333256780f;
-    p = (p * s + 0.999999226f) * q;
-    p = ay > ax ? 0.5f * PI - p : p;
-    p = x < 0 ? PI - p : p;
-    return copysignf(p, y);
-}
-
 // As environment_uv().
 static vec2 uv_of(vec3 d)
 {
-    return vec2(0.5f + angle(d[2], d[0]) * (0.5f * INV_PI),
-                angle(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) * INV_PI);
+    return vec2(0.5f + elementary_angle(d[2], d[0]) * (0.5f * INV_PI),
+                elementary_angle(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) * INV_PI);
 }
 
 static vec3 texel(const ag_image *image, uint32_t x, uint32_t y)
@@ -272,10 +257,11 @@ sky_look sky_sample(const trace_sky *s, vec2 u)
     int right = pixel_of(column + 1, width, s->columns);
     float turn = ((float)left + across * (float)(right - left)) / (float)width;
     float y = mix(s->heights[row], s->heights[row + 1], down);
-    float r = sqrtf(max(1 - y * y, 0.0f)), phi = (turn - 0.5f) * 2 * PI;
-    vec2 uv = vec2(turn, angle(r, y) * INV_PI);
+    float r = sqrtf(max(1 - y * y, 0.0f)); // half a turn from the seam is +X
+    vec2 uv = vec2(turn, elementary_angle(r, y) * INV_PI);
     return (sky_look) {
-        .direction = world_from_sky(s, vec3(r * cosf(phi), y, r * sinf(phi))),
+        .direction =
+            world_from_sky(s, vec3(-r * elementary_cos(turn), y, -r * elementary_sin(turn))),
         .radiance = s->intensity * lookup(s->image, uv),
         .density = density_of(s, row, column),
     };
@@ -285,6 +271,22 @@ static int pixel_at(float share, int pixels)
 {
     int pixel = (int)(share * (float)pixels);
     return pixel < 0 ? 0 : pixel < pixels ? pixel : pixels - 1;
+}
+
+// The cells' light is radiance times difference of the cosine, over pixels around.
+float sky_irradiance(const trace_sky *s)
+{
+    if (!s->image)
+        return 0;
+    sky_line rows = line_of(s, s->rows);
+    return s->intensity * rows.sums[rows.count] * (0.5f * PI) / (float)s->image->width;
+}
+
+vec3 sky_radiance(const trace_sky *s, vec3 direction)
+{
+    if (!s->image)
+        return vec3(0, 0, 0);
+    return s->intensity * lookup(s->image, uv_of(sky_from_world(s, direction)));
 }
 
 sky_look sky_at(const trace_sky *s, vec3 direction)

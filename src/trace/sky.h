@@ -38,6 +38,11 @@ typedef struct sky_look {
     float density;
 } sky_look;
 
+// What it gives to a place, roughly: irradiance without shadows, the mean over all ways that it may
+// face.
+float sky_irradiance(const trace_sky *s);
+
+vec3 sky_radiance(const trace_sky *s, vec3 direction); // nit
 sky_look sky_at(const trace_sky *s, vec3 direction);
 sky_look sky_sample(const trace_sky *s, vec2 u);
 

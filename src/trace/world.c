@@ -29,12 +29,9 @@ static void set_frame(const float w[16], world_instance *i)
     i->flip = dot(x, i->nx) < 0 ? -1 : 1;
 }
 
-enum { FILTER_SIDES = 1, FILTER_HOLES = 2 };
-
-static uint8_t filters_for(const ag_material_desc *m)
+static bool has_holes(const ag_material_desc *m)
 {
-    return (uint8_t)((m->double_sided ? 0 : FILTER_SIDES) |
-                     (m->alpha_mode != AG_ALPHA_OPAQUE ? FILTER_HOLES : 0));
+    return m->alpha_mode != AG_ALPHA_OPAQUE;
 }
 
 static ag_status make_instances(const ag_scene *scene, world *w)
@@ -59,7 +56,7 @@ static ag_status make_instances(const ag_scene *scene, world *w)
             .textures = &w->textures[from->material],
             .model = material_model(&scene->materials[from->material]),
             .moved = shown[from->mesh] > 1,
-            .filters = filters_for(&scene->materials[from->material]),
+            .holes = has_holes(&scene->materials[from->material]),
         };
         set_frame(from->world, to);
     }
@@ -75,9 +72,22 @@ static ag_status make_instances(const ag_scene *scene, world *w)
 
 typedef struct query {
     struct RTCIntersectContext context; // first: the filters are handed this
-    const ray *rays;                    // by the id that Embree carries
     const world *world;
+    const ray *ray; // NULL -> of the packet, by the id that Embree carries
+    const ray_packet *packet;
 } query;
+
+ray world_ray(const ray_packet *p, unsigned lane)
+{
+    return (ray) {
+        .origin = vec3(p->origin[0][lane], p->origin[1][lane], p->origin[2][lane]),
+        .direction = vec3(p->direction[0][lane], p->direction[1][lane], p->direction[2][lane]),
+        .near = p->near[lane],
+        .far = p->far[lane],
+        .from_eye = true,
+        .dice = p->dice[lane],
+    };
+}
 
 static vec2 mixed(const float a[2], const float b[2], const float c[2], float u, float v)
 {
@@ -119,6 +129,12 @@ static vec3 normal_of(const world_instance *i, vec3 along)
     return i->moved ? world_normal(i, v) : along * i->flip;
 }
 
+// Whether the eye sees the back of what has but one side.
+static bool is_hidden(const world_instance *i, vec3 normal, vec3 direction)
+{
+    return !i->material->double_sided && dot(normal, direction) > 0;
+}
+
 // A candidate, as a filter is given it.
 typedef struct candidate {
     uint32_t instance, triangle;
@@ -130,7 +146,7 @@ typedef struct candidate {
 static bool is_there(const world *w, const ray *r, const candidate *c)
 {
     const world_instance *i = &w->instances[c->instance];
-    if (r->from_eye && !i->material->double_sided && dot(normal_of(i, c->normal), r->direction) > 0)
+    if (r->from_eye && is_hidden(i, normal_of(i, c->normal), r->direction))
         return false;
     float opacity = world_opacity(i, c->triangle, c->u, c->v);
     if (opacity <= 0 || opacity >= 1)
@@ -168,7 +184,8 @@ static void filter(const struct RTCFilterFunctionNArguments *args)
             .normal = vec3(lane_float(h, NORMAL_X, n, i), lane_float(h, NORMAL_Y, n, i),
                            lane_float(h, NORMAL_Z, n, i)),
         };
-        if (!is_there(q->world, &q->rays[lane_uint(args->ray, RAY_ID, n, i)], &c))
+        const ray r = q->ray ? *q->ray : world_ray(q->packet, lane_uint(args->ray, RAY_ID, n, i));
+        if (!is_there(q->world, &r, &c))
             args->valid[i] = 0;
     }
 }
@@ -214,20 +231,20 @@ static RTCGeometry new_triangles(const world *w, const scene_mesh *mesh, const w
     return g;
 }
 
-// Filters cost a call at every hit: only where a material needs them.
-static void set_filters(RTCGeometry g, unsigned filters)
+// A filter costs a call at every hit: only where a material needs it.
+static void set_filter(RTCGeometry g, bool holes)
 {
-    if (filters)
+    if (holes) {
         rtcSetGeometryIntersectFilterFunction(g, filter);
-    if (filters & FILTER_HOLES)
         rtcSetGeometryOccludedFilterFunction(g, filter);
+    }
 }
 
 static RTCScene new_scene(const world *w)
 {
     RTCScene s = rtcNewScene(w->device);
     if (s)
-        rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     return s;
 }
 
@@ -262,8 +279,8 @@ static ag_status commit(const world *w, RTCScene s)
     return failed ? no_memory(w) : AG_OK;
 }
 
-// The tree of a mesh that is shown more than once; its geometry has the filters of the neediest.
-static ag_status make_mesh(const ag_scene *scene, world *w, size_t mesh, unsigned filters)
+// The tree of a mesh that is shown more than once; `holes`: of any that shows it.
+static ag_status make_mesh(const ag_scene *scene, world *w, size_t mesh, bool holes)
 {
     RTCGeometry g = new_triangles(w, &scene->meshes[mesh], NULL);
     RTCScene s = g ? new_scene(w) : NULL;
@@ -272,7 +289,7 @@ static ag_status make_mesh(const ag_scene *scene, world *w, size_t mesh, unsigne
             rtcReleaseGeometry(g);
         return no_memory(w);
     }
-    set_filters(g, filters);
+    set_filter(g, holes);
     rtcCommitGeometry(g);
     rtcAttachGeometry(s, g);
     rtcReleaseGeometry(g);
@@ -284,15 +301,15 @@ static ag_status make_meshes(const ag_scene *scene, world *w)
 {
     w->mesh_count = scene->meshes_count;
     w->meshes = calloc(scene->meshes_count + 1, sizeof(RTCScene));
-    enum { SHOWN = 0x80 };
+    enum { SHOWN = 1, HOLES = 2 };
     uint8_t *needs = calloc(scene->meshes_count + 1, 1);
     ag_status status = w->meshes && needs ? AG_OK : no_memory(w);
     for (size_t i = 0; i < w->instance_count && !status; i++)
         if (w->instances[i].moved)
-            needs[scene->instances[i].mesh] |= SHOWN | w->instances[i].filters;
+            needs[scene->instances[i].mesh] |= w->instances[i].holes ? SHOWN | HOLES : SHOWN;
     for (size_t i = 0; i < scene->meshes_count && !status; i++)
         if (needs[i])
-            status = make_mesh(scene, w, i, needs[i] & (FILTER_SIDES | FILTER_HOLES));
+            status = make_mesh(scene, w, i, needs[i] & HOLES);
     free(needs);
     return status;
 }
@@ -322,7 +339,7 @@ static ag_status attach_all(const ag_scene *scene, world *w)
         if (!g)
             return no_memory(w);
         if (!instance->moved)
-            set_filters(g, instance->filters);
+            set_filter(g, instance->holes);
         rtcCommitGeometry(g);
         rtcAttachGeometryByID(w->top, g, (unsigned)i);
         rtcReleaseGeometry(g);
@@ -353,7 +370,7 @@ ag_status world_create(const ag_scene *scene, const ag_progress *progress, world
 static bool filters_hold(const ag_scene *scene, const world *w)
 {
     for (size_t i = 0; i < w->instance_count; i++)
-        if (filters_for(&scene->materials[scene->instances[i].material]) & ~w->instances[i].filters)
+        if (has_holes(&scene->materials[scene->instances[i].material]) && !w->instances[i].holes)
             return false;
     return true;
 }
@@ -369,7 +386,7 @@ ag_status world_renew(const ag_scene *scene, const world *from, const ag_progres
         world_leave(w, from);
     else
         for (size_t i = 0; i < w->instance_count; i++)
-            w->instances[i].filters = from->instances[i].filters;
+            w->instances[i].holes = from->instances[i].holes;
     return status;
 }
 
@@ -418,9 +435,9 @@ static struct RTCRay ray_for(const ray *r)
     };
 }
 
-static query query_for(const world *w, const ray *rays)
+static query query_for(const world *w, const ray *r)
 {
-    query q = { .rays = rays, .world = w };
+    query q = { .world = w, .ray = r };
     rtcInitIntersectContext(&q.context);
     return q;
 }
@@ -435,6 +452,8 @@ static hit hit_from(const world *w, uint32_t instance, uint32_t triangle, float 
 bool world_closest(const world *w, const ray *r, hit *h)
 {
     query q = query_for(w, r);
+    if (r->from_eye)
+        q.context.filter = filter;
     struct RTCRayHit rh = { .ray = ray_for(r), .hit.geomID = RTC_INVALID_GEOMETRY_ID };
     rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(w->top, &q.context, &rh);
@@ -445,27 +464,34 @@ bool world_closest(const world *w, const ray *r, hit *h)
     return true;
 }
 
-unsigned world_closest_packet(const world *w, const ray *r, unsigned count, hit *h)
+static void load(const ray_packet *p, struct RTCRay8 *r)
 {
-    query q = query_for(w, r);
+    float *to[] = { r->org_x, r->org_y, r->org_z, r->dir_x, r->dir_y, r->dir_z };
+    for (int k = 0; k < 3; k++) {
+        memcpy(to[k], p->origin[k], sizeof p->origin[k]);
+        memcpy(to[k + 3], p->direction[k], sizeof p->direction[k]);
+    }
+    memcpy(r->tnear, p->near, sizeof p->near);
+    memcpy(r->tfar, p->far, sizeof p->far);
+    for (unsigned i = 0; i < WORLD_PACKET; i++) {
+        r->time[i] = 0;
+        r->mask[i] = 0xffffffffu;
+        r->id[i] = i;
+        r->flags[i] = 0;
+    }
+}
+
+// Few rays meet a back first: they look again, and at every side.
+unsigned world_closest_packet(const world *w, const ray_packet *p, unsigned count, hit *h)
+{
+    query q = query_for(w, NULL);
+    q.packet = p;
     q.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     struct RTCRayHit8 rh;
     int valid[WORLD_PACKET] __attribute__((aligned(32)));
+    load(p, &rh.ray);
     for (unsigned i = 0; i < WORLD_PACKET; i++) {
-        const ray *from = &r[i < count ? i : 0];
         valid[i] = i < count ? -1 : 0;
-        rh.ray.org_x[i] = from->origin[0];
-        rh.ray.org_y[i] = from->origin[1];
-        rh.ray.org_z[i] = from->origin[2];
-        rh.ray.dir_x[i] = from->direction[0];
-        rh.ray.dir_y[i] = from->direction[1];
-        rh.ray.dir_z[i] = from->direction[2];
-        rh.ray.tnear[i] = from->near;
-        rh.ray.tfar[i] = from->far;
-        rh.ray.time[i] = 0;
-        rh.ray.mask[i] = 0xffffffffu;
-        rh.ray.id[i] = i;
-        rh.ray.flags[i] = 0;
         rh.hit.geomID[i] = rh.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     rtcIntersect8(valid, w->top, &q.context, &rh);
@@ -477,6 +503,9 @@ unsigned world_closest_packet(const world *w, const ray *r, unsigned count, hit 
         h[i] = hit_from(w, instance_of(rh.hit.instID[0][i], rh.hit.geomID[i]), rh.hit.primID[i],
                         rh.ray.tfar[i], rh.hit.u[i], rh.hit.v[i],
                         vec3(rh.hit.Ng_x[i], rh.hit.Ng_y[i], rh.hit.Ng_z[i]));
+        const ray r = world_ray(p, i);
+        if (is_hidden(h[i].instance, h[i].normal, r.direction) && !world_closest(w, &r, &h[i]))
+            found &= ~(1u << i);
     }
     return found;
 }

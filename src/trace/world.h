@@ -17,8 +17,8 @@ typedef struct world_instance {
     const scene_mesh *mesh;
     const ag_material_desc *material;
     const texture_set *textures;
-    bool moved;      // its triangles are in object space: a mesh that is shown more than once
-    uint8_t filters; // what its triangles are looked at for when a ray meets them
+    bool moved; // its triangles are in object space: a mesh that is shown more than once
+    bool holes; // that rays may go through
 } world_instance;
 
 typedef struct world {
@@ -64,9 +64,18 @@ void world_leave(world *w, const world *kept);
 // The first thing on a ray, if any.  Any number of threads may ask.
 bool world_closest(const world *w, const ray *r, hit *h);
 
-// The same for up to 8 rays that go much the same way: bit i of the answer tells of ray i.
+// Rays from the eye that go much the same way, by lanes.
 enum { WORLD_PACKET = 8 };
-unsigned world_closest_packet(const world *w, const ray *r, unsigned count, hit *h);
+typedef struct ray_packet {
+    float origin[3][WORLD_PACKET], direction[3][WORLD_PACKET];
+    float near[WORLD_PACKET], far[WORLD_PACKET];
+    uint32_t dice[WORLD_PACKET];
+} ray_packet;
+
+ray world_ray(const ray_packet *rays, unsigned lane);
+
+// The same for the first `count` of a packet: bit i of the answer tells of lane i.
+unsigned world_closest_packet(const world *w, const ray_packet *rays, unsigned count, hit *h);
 
 // Whether something is on it.
 bool world_blocked(const world *w, const ray *r);

@@ -79,6 +79,14 @@ static void mesh(ag_scene *scene)
                (float[16]) { 1, 0, 0, 0, 0, 1.5f, 0, 0, 0, 0, 1, 0, -1.5f, 2, -0.5f, 1 });
 }
 
+// Where a sky outshines it, and it is sought in one sample of four.
+static void mesh_by_day(ag_scene *scene)
+{
+    const float even[2][4] = { { 2, 2, 2, 1 }, { 2, 2, 2, 1 } };
+    mesh(scene);
+    stage_surround_image(scene, 2, 1, even, 0);
+}
+
 // Glass and holes, that shine where they are.
 static void show_panes(ag_scene *scene, const ag_material_desc *pane)
 {
@@ -195,6 +203,7 @@ static void glowing_and_surfaces_agree(void **state)
     (void)state;
     assert_estimators_agree("mesh", mesh);
     assert_estimators_agree("painted mesh", painted_mesh);
+    assert_estimators_agree("mesh by day", mesh_by_day);
 }
 
 static void what_is_partly_there_shines_so_far(void **state)
