@@ -59,6 +59,16 @@ static bool is_large(const char *input)
     return folder_size(folder, 1) >= DRAFT_BYTES;
 }
 
+static void watch(viewer *v, const char *input)
+{
+    loading *l = &v->loading;
+    if (input != l->input)
+        snprintf(l->input, sizeof l->input, "%s", input);
+    v->watching = (watching) { .next = is_file(l->input) ? v->now + watch_s : 0 };
+    watching *w = &v->watching;
+    w->gone = !look_at(l->input, &w->changed_ns, &w->size);
+}
+
 // ---- Loading -----------------------------------------------------------------
 
 static ag_status load_job(void *context, worker *self)
@@ -91,12 +101,8 @@ void document_load(viewer *v, const char *input, bool keeps_view)
     l->ready = false;
     l->failed = AG_OK;
     l->keeps_view = keeps_view;
-    if (input != l->input)
-        snprintf(l->input, sizeof l->input, "%s", input);
-    v->watching = (watching) { .next = is_file(l->input) ? v->now + watch_s : 0 };
-    watching *w = &v->watching;
-    w->gone = !look_at(l->input, &w->changed_ns, &w->size);
-    l->may_draft = !keeps_view && !w->gone;
+    watch(v, input);
+    l->may_draft = !keeps_view && !v->watching.gone;
     begin(v);
 }
 
@@ -177,6 +183,7 @@ static void swap(viewer *v)
     take_over_edits(v);
     ag_scene_destroy(v->document.scene);
     v->document = l->document;
+    memcpy(v->document_input, l->input, sizeof l->input);
     l->document = (viewer_document) { 0 };
     l->ready = false;
     if (keeps)
@@ -212,6 +219,8 @@ void document_collect(viewer *v)
             memcpy(next, l->next, sizeof next);
             l->next[0] = 0;
             document_load(v, next, l->next_keeps_view);
+        } else if (status && v->document.scene && strcmp(l->input, v->document_input) != 0) {
+            watch(v, v->document_input); // that stays
         }
     }
     if (l->ready && viewer_can_edit(v))

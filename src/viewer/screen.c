@@ -208,6 +208,8 @@ ag_status screen_create(const ag_log *log, const char *title, uint32_t width, ui
     screen *s = calloc(1, sizeof *s);
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    // Some window managers take the focus for a moment when a window fills the display.
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
     if (s)
         s->window = glfwCreateWindow((int)width, (int)height, title, NULL, NULL);
     if (!s || !s->window) {

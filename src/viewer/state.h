@@ -122,8 +122,9 @@ typedef struct viewer {
     loading loading;
     watching watching;
     viewer_document document; // shown; scene NULL: none yet
-    bool drafted;             // it lacks what takes long
-    bool edited;              // since it was read
+    char document_input[INPUT_MAX];
+    bool drafted; // it lacks what takes long
+    bool edited;  // since it was read
     navigation navigation;
     eye eye;
     pointing pointing;

@@ -242,6 +242,10 @@ class Viewer:
         """Whether any thread runs, of it or of its display."""
         return any(runs(f"/proc/{pid}/task") for pid in (self.process.pid, display))
 
+    def cpu_s(self):
+        fields = open(f"/proc/{self.process.pid}/stat").read().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
     def rest(self):
         """Wait until it has nothing more to do; what it shows then."""
         quiet = 0

@@ -48,18 +48,13 @@ def fonts_may_be_missing():
     v.close()
 
 
-def cpu_s(viewer):
-    fields = open(f"/proc/{viewer.process.pid}/stat").read().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
 def at_rest_nothing_is_done():
     v = Viewer(scene, *PLAIN, words=True)
     v.shown()
     v.key("Tab")
-    pictures, before = v.mark(), cpu_s(v)
+    pictures, before = v.mark(), v.cpu_s()
     time.sleep(5)
-    used = (cpu_s(v) - before) / 5
+    used = (v.cpu_s() - before) / 5
     check(used < 0.02, f"{100 * used:.1f} % of a core")
     check(v.said("shown: ", pictures) is None, "it draws")
     v.close()
