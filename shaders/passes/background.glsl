@@ -29,12 +29,8 @@ vec3 behind_suns(vec2 clip, vec3 color)
          dy = direction_at(clip + vec2(0.0, frame.pixel.y));
     for (uint i = frame.light_ends[GPU_LIGHTS_PUNCTUAL]; i < frame.first_body; i++) {
         gpu_light sun = lights[i];
-        float apart = length(cross(d, sun.direction)); // the sine of the angle
-        float width = abs(length(cross(dx, sun.direction)) - apart) +
-                      abs(length(cross(dy, sun.direction)) - apart);
-        float edge = (sun.radius - apart) / max(width, 1e-7) + 0.5;
-        bool towards = dot(d, sun.direction) < 0.0 && sun.radiance != vec3(0.0);
-        color = mix(color, sun.radiance, towards ? clamp(edge, 0.0, 1.0) : 0.0);
+        float share = environment_sun_share(d, dx, dy, sun.direction, sun.radius);
+        color = mix(color, sun.radiance, sun.radiance != vec3(0.0) ? share : 0.0);
     }
     return color;
 }

@@ -37,6 +37,19 @@ static inline vec3 environment_cube_direction(uint face, real s, real t)
     return vec3(-s, -t, -1.0f);
 }
 
+// How much of a pixel a sun covers whose light travels along `sun`, by the sine of its angular
+// radius: d is seen in the pixel's middle, dx and dy in those of its neighbours, all of them
+// unit.  The edge is as wide as the pixel.
+static inline real environment_sun_share(vec3 d, vec3 dx, vec3 dy, vec3 sun, real sin_radius)
+{
+    vec3 c = cross(d, sun), cx = cross(dx, sun), cy = cross(dy, sun);
+    real apart = sqrt(dot(c, c)); // the sine of the angle
+    real to_x = sqrt(dot(cx, cx)) - apart, to_y = sqrt(dot(cy, cy)) - apart;
+    real width = max(to_x, -to_x) + max(to_y, -to_y);
+    real edge = (sin_radius - apart) / max(width, 1e-7f) + 0.5f;
+    return dot(d, sun) < 0.0f ? clamp(edge, 0.0f, 1.0f) : 0.0f;
+}
+
 // The level of the prefiltered cube that is filtered for `roughness`, and back.  The
 // parabola spends the levels on smooth surfaces, whose lobes differ most.
 static inline real environment_mip(real roughness, real mip_count)

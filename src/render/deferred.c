@@ -21,10 +21,10 @@ static uint32_t source_count(const ag_renderer *r, const picture *p)
     return p->draws.instance_count + r->resident.lights.count + 1;
 }
 
-// Materials, and the background.
+// Materials.
 static uint32_t list_count(const picture *p)
 {
-    return (uint32_t)p->scene->materials_count + 1;
+    return (uint32_t)p->scene->materials_count;
 }
 
 static uint32_t bits_for(uint64_t values)
@@ -71,7 +71,7 @@ bool deferred_fits(const ag_renderer *r, const picture *p)
 
 // ---- What ids stand for ------------------------------------------------------------
 
-static bool shades_background(const ag_renderer *r, const picture *p)
+static bool shows_background(const ag_renderer *r, const picture *p)
 {
     const lights *l = &r->resident.lights;
     bool suns = l->ends[GPU_LIGHTS_PUNCTUAL] < l->bodies;
@@ -127,7 +127,7 @@ ag_status deferred_prepare(ag_renderer *r, const picture *p)
     name_lights(r, p);
     r->visibility.triangle_bits = triangle_bits(r, p);
     shade_source *nothing = &r->visibility.sources[source_count(r, p) - 1];
-    nothing->list = shades_background(r, p) ? list_count(p) - 1 : list_count(p);
+    nothing->list = list_count(p);
     nothing->color[3] = p->background ? 1 : 0;
     return AG_OK;
 }
@@ -247,15 +247,6 @@ static ag_status record_material(ag_renderer *r, const picture *p, uint32_t mate
     return AG_OK;
 }
 
-static ag_status record_background(ag_renderer *r, const picture *p, gpu_list list)
-{
-    VkPipeline pipeline;
-    ag_status status = variants_beside(r, p, PIPELINE_SHADE_BACKGROUND, &pipeline);
-    if (!status)
-        record_dispatch(r, pipeline, list);
-    return status;
-}
-
 static void begin_shading(const ag_renderer *r)
 {
     bind_compute(r, 0, r->bindings.frame);
@@ -269,8 +260,7 @@ static ag_status record_shading(ag_renderer *r, const picture *p, const shade_li
     for (uint32_t i = 0; i < l->list_count && !status; i++) {
         const gpu_list part = { l->firsts[i], l->firsts[i + 1] - l->firsts[i] };
         if (part.count)
-            status = i + 1 < l->list_count ? record_material(r, p, i, part)
-                                           : record_background(r, p, part);
+            status = record_material(r, p, i, part);
     }
     gpu_barrier_memory(&r->commands, GPU_ACCESS_COMPUTE_WRITE, GPU_ACCESS_HOST_READ);
     return status;
@@ -303,8 +293,6 @@ ag_status deferred_warm_up(ag_renderer *r, const picture *p)
     for (uint32_t i = 0; i < p->draws.count && !status; i++)
         if (i == 0 || p->draws.items[i].material != p->draws.items[i - 1].material)
             status = record_material(r, p, p->draws.items[i].material, nothing);
-    if (!status && shades_background(r, p))
-        status = record_background(r, p, nothing);
     return status ? status : run(r);
 }
 
@@ -324,8 +312,13 @@ static void mix_colors(const ag_renderer *r, const picture *p, uint32_t index,
                        const shade_list *list)
 {
     const float4 under = frame_backdrop(p);
+    const panorama behind = { .surround = &r->resident.surround,
+                              .frame = r->frame.memory.mapped,
+                              .suns = r->resident.lights.all.memory.mapped,
+                              .tone = variants_tone_early(p) };
     const shade_mix how = {
         .colors = r->visibility.colors.memory.mapped,
+        .background = shows_background(r, p) ? &behind : NULL,
         .backdrop = { under.x, under.y, under.z, under.w },
         .tone = p->hdr ? variants_tone(p->options) : GPU_TONE_LINEAR,
         .weight = 1 / (float)p->frames,

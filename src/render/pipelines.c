@@ -73,8 +73,6 @@ static ag_status create_compute(gpu_device *device, const bindings *b, const pip
         .constants = (const uint32_t *)&key->constants,
         .constant_count = sizeof key->constants / 4,
     };
-    if (key->kind == PIPELINE_SHADE_BACKGROUND)
-        desc.shader = shader_shade_background_comp();
     if (key->kind == PIPELINE_METER) {
         desc.shader = shader_meter_comp();
         desc.layout = b->metering;

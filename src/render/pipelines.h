@@ -14,7 +14,6 @@ typedef enum pipeline_kind {
     PIPELINE_RESOLVE,    // radiance to the picture that leaves
     PIPELINE_LAYER,      // an image in a window
     PIPELINE_SHADE,      // surfaces, from a list; this and what follows compute
-    PIPELINE_SHADE_BACKGROUND,
     PIPELINE_METER, // the histogram of a picture
 } pipeline_kind;
 

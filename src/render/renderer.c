@@ -152,14 +152,16 @@ static ag_status prepare(ag_renderer *r, picture *p, ag_render_stats *stats)
     const ag_render_options *o = p->options;
     ag_status status = resident_things(r, p->scene, false, &stats->upload_ms);
     if (!status)
-        status = resident_surround(r, p->scene, p->background, stats);
-    if (!status)
         status = lights_write(r->device, p->scene, o, &r->resident.lights);
     if (!status)
         status = upload_instances(r, &p->draws);
     if (status)
         return status;
     p->deferred = deferred_fits(r, p);
+    surround_shown shown = p->deferred ? SURROUND_BY_HOST : SURROUND_BY_DEVICE;
+    status = resident_surround(r, p->scene, p->background ? shown : SURROUND_HIDDEN, stats);
+    if (status)
+        return status;
     uint32_t limit = tile_limit(r);
     const targets_desc desc = {
         .width = tile_size(o->width, limit),

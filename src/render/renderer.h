@@ -45,9 +45,9 @@ struct ag_renderer {
 AG_CHECK ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool release,
                                    double *upload_ms);
 
-// Have what surrounds the scene on the device; `shown`: also as a picture.
-AG_CHECK ag_status resident_surround(ag_renderer *renderer, const ag_scene *scene, bool shown,
-                                     ag_render_stats *stats);
+// Have what surrounds the scene on the device, and where it is shown as a picture.
+AG_CHECK ag_status resident_surround(ag_renderer *renderer, const ag_scene *scene,
+                                     surround_shown shown, ag_render_stats *stats);
 void resident_destroy(gpu_device *device, resident *r); // zero is allowed
 
 // Make a picture as ag_renderer_render does, into an image of its size: 8 bits, as they are

@@ -84,37 +84,41 @@ ag_status resident_things(ag_renderer *renderer, const ag_scene *scene, bool rel
     return AG_OK;
 }
 
-static ag_status make_surround(ag_renderer *renderer, const ag_scene *scene, bool shown,
-                               gpu_upload *upload, ag_render_stats *stats)
+// All of it, or where it is `there` what is missing to show it.
+static ag_status make_surround(ag_renderer *renderer, const ag_scene *scene, surround_shown shown,
+                               bool there, gpu_upload *upload, ag_render_stats *stats)
 {
     const ag_image *equirect;
-    surround_destroy(renderer->device, &renderer->resident.surround);
+    surround *s = &renderer->resident.surround;
+    if (!there)
+        surround_destroy(renderer->device, s);
     double start = clock_ms();
     ag_status status = scene_environment_open(scene, &equirect);
     double opened = clock_ms() - start;
     if (status)
         return status;
-    status = surround_create(renderer->device, equirect, shown, upload, &stats->environment_cached,
-                             &stats->bake_ms, &renderer->resident.surround);
+    status = there ? surround_show(renderer->device, equirect, shown, upload, s)
+                   : surround_create(renderer->device, equirect, shown, upload,
+                                     &stats->environment_cached, &stats->bake_ms, s);
     stats->bake_ms += opened;
     scene_environment_close(scene, equirect);
     return status;
 }
 
-ag_status resident_surround(ag_renderer *renderer, const ag_scene *scene, bool shown,
+ag_status resident_surround(ag_renderer *renderer, const ag_scene *scene, surround_shown shown,
                             ag_render_stats *stats)
 {
     resident *r = &renderer->resident;
-    bool picture_missing = shown && r->surround.present && !r->surround.image_wanted;
-    if (r->surrounded == scene->id && r->environment_revision == scene->environment_revision &&
-        !picture_missing)
+    bool there =
+        r->surrounded == scene->id && r->environment_revision == scene->environment_revision;
+    if (there && surround_shows(&r->surround, shown))
         return AG_OK;
     double start = clock_ms();
     gpu_upload upload;
     ag_status status = gpu_upload_begin(renderer->device, &upload);
     r->surrounded = 0;
     if (!status)
-        status = make_surround(renderer, scene, shown, &upload, stats);
+        status = make_surround(renderer, scene, shown, there, &upload, stats);
     if (!status)
         status = gpu_upload_end(&upload);
     gpu_upload_finish(&upload);

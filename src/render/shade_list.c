@@ -283,14 +283,26 @@ static void add(float to[4], const float c[4], float weight)
         to[i] += weight * c[i];
 }
 
-// The mean of a pixel's surfaces; `cursors` move past what is read.
-static void mix_pixel(const mix_job *job, const uint32_t *ids, uint32_t *cursors, float sum[4])
+static bool is_background(const mix_job *job, const shade_source *source)
 {
     const shade_list *l = job->list;
-    parts p = parts_of(l, ids);
+    return job->mix->background && source == &l->sources[l->source_count - 1];
+}
+
+// The mean of a pixel's surfaces; `cursors` move past what is read.
+static void mix_pixel(const mix_job *job, uint32_t x, uint32_t y, uint32_t *cursors, float sum[4])
+{
+    const shade_list *l = job->list;
+    parts p = parts_of(l, ids_of(l, x, y));
     for (int i = 0; i < p.count; i++) {
         const shade_source *source = source_of(l, p.id[i]);
         float weight = (float)p.weight[i] / (float)l->samples, color[4];
+        if (is_background(job, source)) {
+            float run[PANORAMA_RUN][4];
+            panorama_run(job->mix->background, x, y, run);
+            add(sum, run[0], weight);
+            continue;
+        }
         if (source->list == l->list_count) {
             add(sum, source->color, weight);
             continue;
@@ -300,6 +312,21 @@ static void mix_pixel(const mix_job *job, const uint32_t *ids, uint32_t *cursors
             color[k] = half_to_float(half[k]);
         add(sum, color, weight);
     }
+}
+
+// The background from x on, as far as nothing else is seen: how many pixels.
+static uint32_t mix_background(const mix_job *job, uint32_t x, uint32_t y)
+{
+    const shade_list *l = job->list;
+    float run[PANORAMA_RUN][4];
+    uint32_t count = 0;
+    panorama_run(job->mix->background, x, y, run);
+    do {
+        finish_pixel(job, run[count], (size_t)y * l->width + x + count);
+        count++;
+    } while (count < PANORAMA_RUN && x + count < l->width && is_whole(l, ids_of(l, x + count, y)) &&
+             is_background(job, source_of(l, *ids_of(l, x + count, y))));
+    return count;
 }
 
 static void mix_row(const mix_job *job, uint32_t y, uint32_t *cursors)
@@ -313,6 +340,10 @@ static void mix_row(const mix_job *job, uint32_t y, uint32_t *cursors)
         const uint32_t *ids = ids_of(l, x, y);
         size_t at = (size_t)y * l->width + x;
         const shade_source *source = is_whole(l, ids) ? source_of(l, ids[0]) : NULL;
+        if (source && is_background(job, source)) {
+            x += mix_background(job, x, y) - 1;
+            continue;
+        }
         if (source && source == before) {
             memcpy((char *)mix->pixels + at * texel, (char *)mix->pixels + (at - 1) * texel, texel);
             continue;
@@ -327,7 +358,7 @@ static void mix_row(const mix_job *job, uint32_t y, uint32_t *cursors)
             continue;
         }
         float sum[4] = { 0 };
-        mix_pixel(job, ids, cursors, sum);
+        mix_pixel(job, x, y, cursors, sum);
         finish_pixel(job, sum, at);
     }
 }

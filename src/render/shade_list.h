@@ -10,6 +10,7 @@
 #include <argand/renderer.h>
 
 #include "interop/scene.glsl"
+#include "render/panorama.h"
 #include "render/raster.h"
 
 enum { SHADE_LISTS_MAX = 1024 };
@@ -46,6 +47,7 @@ void shade_list_write(const shade_list *list, gpu_listed *places);
 // How colours become a picture.
 typedef struct shade_mix {
     const uint16_t (*colors)[4]; // half floats, of the places in their order
+    const panorama *background;  // what the last source shows; NULL: its own colour
     float backdrop[4];           // display-linear, premultiplied, where nothing covers
     uint32_t tone;               // curve still to be applied, or GPU_TONE_LINEAR
     float weight;                // of this frame in the sum

@@ -37,9 +37,6 @@ static const uint32_t layer_frag[] =
 static const uint32_t shade_comp[] =
 #include "shade.comp.inc"
     ;
-static const uint32_t shade_background_comp[] =
-#include "shade_background.comp.inc"
-    ;
 static const uint32_t meter_comp[] =
 #include "meter.comp.inc"
     ;
@@ -102,11 +99,6 @@ gpu_shader shader_layer_frag(void)
 gpu_shader shader_shade_comp(void)
 {
     return (gpu_shader) { shade_comp, sizeof shade_comp };
-}
-
-gpu_shader shader_shade_background_comp(void)
-{
-    return (gpu_shader) { shade_background_comp, sizeof shade_background_comp };
 }
 
 gpu_shader shader_meter_comp(void)

@@ -16,7 +16,6 @@ gpu_shader shader_resolve_frag(void);
 gpu_shader shader_layer_vert(void);
 gpu_shader shader_layer_frag(void);
 gpu_shader shader_shade_comp(void);
-gpu_shader shader_shade_background_comp(void);
 gpu_shader shader_meter_comp(void);
 
 #endif

@@ -58,23 +58,35 @@ static ag_status upload_irradiance(gpu_device *device, gpu_upload *upload,
 }
 
 // The picture itself as half floats.
+static ag_status keep_texels(gpu_device *device, const ag_image *equirect, surround *s)
+{
+    size_t values = (size_t)equirect->width * equirect->height * 4;
+    s->texels = malloc(values * sizeof(uint16_t));
+    if (!s->texels)
+        return log_fail(&device->log, AG_ERROR_MEMORY, "no memory for the environment");
+    s->width = equirect->width;
+    s->height = equirect->height;
+    half_from_floats_clamped(equirect->pixels, s->texels[0], values);
+    return AG_OK;
+}
+
 static ag_status upload_image(gpu_device *device, gpu_upload *upload, const ag_image *equirect,
-                              gpu_image *image)
+                              surround *s)
 {
     const gpu_image_desc desc = { .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                   .width = equirect->width,
                                   .height = equirect->height };
-    size_t values = (size_t)equirect->width * equirect->height * 4;
     if (equirect->width > device->info.max_size || equirect->height > device->info.max_size)
         return log_fail(&device->log, AG_ERROR_UNSUPPORTED,
                         "an environment of %ux%u pixels is more than the %u of %s", equirect->width,
                         equirect->height, device->info.max_size, device->info.name);
-    uint16_t *halves = malloc(values * sizeof *halves);
-    if (!halves)
-        return log_fail(&device->log, AG_ERROR_MEMORY, "no memory for the environment");
-    half_from_floats_clamped(equirect->pixels, halves, values);
-    ag_status status = upload_levels(device, upload, &desc, 8, halves, image);
-    free(halves);
+    surround kept = { 0 };
+    ag_status status = keep_texels(device, equirect, &kept);
+    gpu_image_destroy(device, &s->image);
+    if (!status)
+        status = upload_levels(device, upload, &desc, 8, kept.texels, &s->image);
+    free(kept.texels);
+    s->has_image = status == AG_OK;
     return status;
 }
 
@@ -105,10 +117,26 @@ static ag_status upload_ltc(gpu_device *device, gpu_upload *upload, gpu_image *l
     return upload_levels(device, upload, &desc, 8, bake_ltc_table, ltc);
 }
 
-ag_status surround_create(gpu_device *device, const ag_image *equirect, bool image_wanted,
+bool surround_shows(const surround *s, surround_shown shown)
+{
+    return !s->present || (shown == SURROUND_BY_DEVICE ? s->has_image
+                           : shown == SURROUND_BY_HOST ? s->texels != NULL
+                                                       : true);
+}
+
+ag_status surround_show(gpu_device *device, const ag_image *equirect, surround_shown shown,
+                        gpu_upload *upload, surround *s)
+{
+    if (surround_shows(s, shown))
+        return AG_OK;
+    return shown == SURROUND_BY_DEVICE ? upload_image(device, upload, equirect, s)
+                                       : keep_texels(device, equirect, s);
+}
+
+ag_status surround_create(gpu_device *device, const ag_image *equirect, surround_shown shown,
                           gpu_upload *upload, bool *cached, double *bake_ms, surround *s)
 {
-    *s = (surround) { .present = equirect != NULL, .image_wanted = image_wanted && equirect };
+    *s = (surround) { .present = equirect };
     *cached = false;
     double start = clock_ms();
     bake_environment baked = { 0 };
@@ -128,9 +156,10 @@ ag_status surround_create(gpu_device *device, const ag_image *equirect, bool ima
     if (!status)
         status = equirect ? upload_irradiance(device, upload, &baked, &s->irradiance)
                           : upload_black(device, upload, true, &s->irradiance);
+    if (!status && (!equirect || shown != SURROUND_BY_DEVICE)) // a stand-in
+        status = upload_black(device, upload, false, &s->image);
     if (!status)
-        status = s->image_wanted ? upload_image(device, upload, equirect, &s->image)
-                                 : upload_black(device, upload, false, &s->image);
+        status = surround_show(device, equirect, shown, upload, s);
     bake_environment_finish(&baked);
     return status;
 }
@@ -142,6 +171,7 @@ void surround_destroy(gpu_device *device, surround *s)
     gpu_image_destroy(device, &s->image);
     gpu_image_destroy(device, &s->dfg);
     gpu_image_destroy(device, &s->ltc);
+    free(s->texels);
     *s = (surround) { 0 };
 }
 

@@ -7,23 +7,38 @@
 
 #include "interop/scene.glsl"
 
+// Who shows it behind the scene.
+typedef enum surround_shown {
+    SURROUND_HIDDEN,
+    SURROUND_BY_DEVICE,
+    SURROUND_BY_HOST
+} surround_shown;
+
 typedef struct surround {
-    bool present;         // false: black, and the images are stand-ins
-    gpu_image cube;       // prefiltered
-    gpu_image irradiance; // cube of irradiance / pi
-    gpu_image image;      // equirectangular; a stand-in until it is needed
-    bool image_wanted;    // the image is the real one
+    bool present;           // false: black, and the images are stand-ins
+    gpu_image cube;         // prefiltered
+    gpu_image irradiance;   // cube of irradiance / pi
+    gpu_image image;        // equirectangular; a stand-in until it is needed
+    bool has_image;         // the image is the real one
+    uint16_t (*texels)[4];  // half floats of the same; NULL until they are needed
+    uint32_t width, height; // of them
     gpu_image dfg;
     gpu_image ltc;
     float sh[9][3];
 } surround;
 
-// `equirect` NULL: none.  `image_wanted`: the background shows it.
+// `equirect` NULL: none.
 // On failure what is half made stays for surround_destroy, after the upload is finished: the
 // device may still be copying into it.
-AG_CHECK ag_status surround_create(gpu_device *device, const ag_image *equirect, bool image_wanted,
-                                   gpu_upload *upload, bool *cached, double *bake_ms, surround *s);
+AG_CHECK ag_status surround_create(gpu_device *device, const ag_image *equirect,
+                                   surround_shown shown, gpu_upload *upload, bool *cached,
+                                   double *bake_ms, surround *s);
 void surround_destroy(gpu_device *device, surround *s); // zero is allowed
+
+// Whether it can be shown so, and what makes it so: `equirect` is as it was created from.
+bool surround_shows(const surround *s, surround_shown shown);
+AG_CHECK ag_status surround_show(gpu_device *device, const ag_image *equirect, surround_shown shown,
+                                 gpu_upload *upload, surround *s);
 
 // The environment's part of a frame.
 void surround_frame(const surround *s, const ag_scene *scene, gpu_frame *frame);

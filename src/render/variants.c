@@ -46,14 +46,13 @@ ag_status variants_surface(ag_renderer *r, const picture *p, pipeline_kind kind,
 ag_status variants_beside(ag_renderer *r, const picture *p, pipeline_kind kind,
                           VkPipeline *pipeline)
 {
-    pipeline_key key = { .kind = kind, .constants.tone = variants_tone_early(p) };
-    if (kind != PIPELINE_SHADE_BACKGROUND) {
-        key.format = targets_surface_format(&r->targets.desc);
-        key.constants.samples = r->targets.desc.samples;
-    }
+    pipeline_key key = { .kind = kind,
+                         .format = targets_surface_format(&r->targets.desc),
+                         .constants.tone = variants_tone_early(p),
+                         .constants.samples = r->targets.desc.samples };
     gpu_surface_constants lit = { 0 };
     lights_constants(&r->resident.lights, &lit);
-    if (kind == PIPELINE_BACKGROUND || kind == PIPELINE_SHADE_BACKGROUND) {
+    if (kind == PIPELINE_BACKGROUND) {
         key.constants.environment = r->resident.surround.present;
         key.constants.groups = lit.groups & 1u << GPU_LIGHTS_CAP;
     }

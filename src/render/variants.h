@@ -13,7 +13,7 @@ uint32_t variants_tone_early(const picture *p);
 AG_CHECK ag_status variants_surface(ag_renderer *r, const picture *p, pipeline_kind kind,
                                     uint32_t material, VkPipeline *pipeline);
 
-// Of what is there beside the surfaces: PIPELINE_BODY, _BACKGROUND, _SHADE_BACKGROUND.
+// Of what is there beside the surfaces: PIPELINE_BODY or _BACKGROUND.
 AG_CHECK ag_status variants_beside(ag_renderer *r, const picture *p, pipeline_kind kind,
                                    VkPipeline *pipeline);
 
