@@ -341,6 +341,11 @@ void screen_toggle_full(screen *s)
     glfwSetWindowMonitor(s->window, display, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
+void screen_hide(screen *s)
+{
+    glfwHideWindow(s->window);
+}
+
 int screen_surface(void *user, void *instance, void *surface)
 {
     screen *s = user;

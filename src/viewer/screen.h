@@ -68,6 +68,7 @@ bool screen_damaged(screen *s);
 
 void screen_set_title(screen *s, const char *title);
 void screen_toggle_full(screen *s);
+void screen_hide(screen *s);
 
 // Any thread: make its Vulkan surface, as ag_window_desc wants it; `user` is the screen.
 int screen_surface(void *user, void *instance, void *surface);

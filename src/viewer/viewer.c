@@ -136,13 +136,19 @@ static ag_status create_parts(viewer *v)
     return status ? status : create_ring(v);
 }
 
+// Jobs take a moment to end, some of them longer: nobody has to look on.
+static void leave(viewer *v)
+{
+    screen_hide(v->screen);
+    worker_stop(v->loading.worker);
+    worker_stop(tracer_worker(v->tracer));
+    painter_close(v->painter);
+    hear(v);
+}
+
 // First everybody is stopped, then what they read is freed.
 static void destroy_parts(viewer *v)
 {
-    if (v->loading.worker)
-        worker_stop(v->loading.worker);
-    if (v->tracer)
-        worker_stop(tracer_worker(v->tracer));
     painter_destroy(v->painter);
     tracer_destroy(v->tracer);
     worker_destroy(v->saver);
@@ -221,8 +227,7 @@ ag_status viewer_run(const viewer_setup *setup, viewer_report *report)
     ag_status status = create_parts(&v);
     if (!status) {
         run(&v);
-        painter_close(v.painter);
-        hear(&v);
+        leave(&v);
         status = v.failed;
         if (!status && !v.document.scene && !v.loading.ready)
             status = v.loading.failed; // nothing was ever seen

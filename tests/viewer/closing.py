@@ -30,6 +30,21 @@ def while_it_works():
     closing(0.5, "3", "F12", "F5", "r")
 
 
+def before_its_jobs_have_ended():
+    """The window goes at once, however long they take."""
+    input, hold, held = large(os.path.join(here, "large.gltf"))
+    v = Viewer(input, words=True, **held)
+    window = v.window()
+    v.heard("shown: ")  # a draft; the rest waits for `hold`
+    start = time.monotonic()
+    xdotool("key", "ctrl+q")
+    until(lambda: window not in xdotool("search", "--onlyvisible", "--class", "argand"), "an end")
+    print(f"gone after {time.monotonic() - start:.2f} s")
+    check(v.process.poll() is None, "nothing was held")
+    os.unlink(hold)
+    check(v.ended() == 0, f"exit code {v.process.returncode}: {v.lines[-3:]}")
+
+
 def with_everything_done_once():
     v = Viewer(INPUTS[0], words=True)
     v.shown()
@@ -39,4 +54,4 @@ def with_everything_done_once():
     v.close()
 
 
-run(while_it_loads, while_it_works, with_everything_done_once)
+run(while_it_loads, while_it_works, before_its_jobs_have_ended, with_everything_done_once)

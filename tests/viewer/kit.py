@@ -389,6 +389,27 @@ def cube(path, side=1.0, colors=SIDES, roughness=None):
     return path
 
 
+def large(path):
+    """The white cube with a texture, as a large file: a draft of it is shown first.  Also the file
+    that has to go before the rest is read, and what makes a viewer wait for that."""
+    with open(cube(path, roughness=0.5)) as file:
+        gltf = json.load(file)
+    gltf["images"] = [{"uri": "white.png"}]
+    gltf["textures"] = [{"source": 0}]
+    gltf["materials"][4]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+    with open(path, "w") as file:
+        json.dump(gltf, file)
+    folder = os.path.dirname(path)
+    command("render", "demo:furnace", "--size", "8x8", "-o", os.path.join(folder, "white.png"))
+    with open(os.path.join(folder, "large.bin"), "wb") as file:
+        file.truncate(9 << 20)
+    hold = os.path.join(folder, "hold")
+    open(hold, "w").close()
+    return path, hold, {
+        "preload": (os.environ["ARGAND_TEST_HELD_FILES"],), "ARGAND_TEST_HOLD": hold,
+    }
+
+
 # ---- Running ---------------------------------------------------------------------
 
 

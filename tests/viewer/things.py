@@ -130,27 +130,9 @@ def points_become_spheres():
     v.close()
 
 
-def large(path):
-    """The white cube with a texture, as a large file: a draft of it is shown first."""
-    with open(cube(path, roughness=0.5)) as file:
-        gltf = json.load(file)
-    gltf["images"] = [{"uri": "white.png"}]
-    gltf["textures"] = [{"source": 0}]
-    gltf["materials"][4]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
-    with open(path, "w") as file:
-        json.dump(gltf, file)
-    folder = os.path.dirname(path)
-    command("render", "demo:furnace", "--size", "8x8", "-o", os.path.join(folder, "white.png"))
-    with open(os.path.join(folder, "large.bin"), "wb") as file:
-        file.truncate(9 << 20)
-    return path
-
-
 def edits_of_a_draft_are_kept():
-    hold = os.path.join(here, "hold")
-    open(hold, "w").close()
-    v = Viewer(large(os.path.join(here, "large.gltf")), *FRONT_VIEW, *LIGHT,
-               preload=(os.environ["ARGAND_TEST_HELD_FILES"],), ARGAND_TEST_HOLD=hold)
+    input, hold, held = large(os.path.join(here, "large.gltf"))
+    v = Viewer(input, *FRONT_VIEW, *LIGHT, **held)
     v.shown()
     v.click(120, 110)
     v.key("Up", "Up", "Right")
