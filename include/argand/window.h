@@ -28,7 +28,8 @@ typedef struct ag_window_desc {
 } ag_window_desc;
 
 // Show pictures in a window.  The renderer outlives it, and it is destroyed before the window
-// is closed.  AG_ERROR_DEVICE when no surface can be made or the device cannot show one.
+// is closed.  AG_ERROR_ARGUMENT when the device was not opened for windows, AG_ERROR_DEVICE when
+// no surface can be made or the device cannot show one.
 AG_CHECK ag_status ag_window_create(ag_renderer *renderer, const ag_window_desc *desc,
                                     ag_window **window);
 AG_API void ag_window_destroy(ag_window *window); // NULL is allowed
@@ -61,6 +62,10 @@ typedef struct ag_show_options {
 AG_CHECK ag_status ag_window_show(ag_window *window, const ag_scene *scene,
                                   const ag_camera_desc *camera, const ag_render_options *options,
                                   const ag_show_options *show, ag_render_stats *stats);
+
+// The picture that is shown, without the layers: what ag_renderer_render would give, in RGBA8,
+// without drawing it again.  The image is the caller's.  AG_ERROR_ARGUMENT when there is none.
+AG_CHECK ag_status ag_window_picture(ag_window *window, ag_image **picture);
 
 #ifdef __cplusplus
 }

@@ -151,6 +151,7 @@ static ag_status open_logical(gpu_device *device, bool windows)
         device, vkCreateDevice(device->physical, &info, NULL, &device->device), "vkCreateDevice");
     if (status)
         return status;
+    device->windows = windows;
     vkGetDeviceQueue(device->device, device->queue_family, 0, &device->queue);
     return AG_OK;
 }

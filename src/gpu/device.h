@@ -25,6 +25,7 @@ struct ag_device {
     struct gpu_heap *heap; // see memory.h
     ag_device_info info;
     float anisotropy; // the largest that is worth its cost; 1 = none
+    bool windows;     // can show pictures in them
 };
 
 // AG_OK, or the failure of `what` told and turned into a status.

@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "gpu/swapchain.h"
 #include "image/image.h"
+#include "render/pixels.h"
 #include "render/renderer.h"
 #include "scene/picture.h"
 
@@ -34,12 +35,13 @@ static ag_status make_surface(ag_window *w, const ag_window_desc *desc)
 {
     gpu_device *device = w->renderer->device;
     VkSurfaceKHR surface = VK_NULL_HANDLE;
+    if (!device->windows)
+        return log_fail(&device->log, AG_ERROR_ARGUMENT,
+                        "the device was not opened for windows; set ag_device_desc.windows");
     int result = desc->create_surface(desc->user, device->instance, &surface);
     if (result != VK_SUCCESS)
         return log_fail(&device->log, AG_ERROR_DEVICE,
-                        "no surface could be made of the window, Vulkan code %d; was the device "
-                        "opened for windows?",
-                        result);
+                        "no surface could be made of the window, Vulkan code %d", result);
     return gpu_swapchain_create(device, surface, &w->swapchain);
 }
 
@@ -128,7 +130,8 @@ static ag_status fit_slot(ag_window *w, slot *s, uint32_t width, uint32_t height
         .format = VK_FORMAT_R8G8B8A8_UNORM,
         .width = width,
         .height = height,
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
     };
     ag_status status = gpu_image_create(device, &desc, &s->image);
     if (status)
@@ -207,8 +210,11 @@ static ag_status bring_layers(ag_window *w, const ag_show_options *show)
     return status;
 }
 
+// What was to be brought to them may not have come.
 static void drop_layers(ag_window *w)
 {
+    ag_status status = gpu_commands_wait(w->renderer->device, &w->commands);
+    (void)status; // a device that is lost does not use them either
     for (int i = 0; i < AG_LAYERS_MAX; i++) {
         gpu_image_destroy(w->renderer->device, &w->layers[i].image);
         w->layers[i].version = 0;
@@ -351,6 +357,20 @@ static ag_status bring_bloomed(ag_window *w, const ag_scene *scene, const ag_cam
     return status;
 }
 
+// Have an image of this size for the picture, ready to be drawn into.
+static ag_status fit_picture(ag_window *w, uint32_t width, uint32_t height)
+{
+    gpu_device *device = w->renderer->device;
+    ag_status status = gpu_commands_begin(device, &w->commands);
+    if (!status)
+        status = fit_slot(w, &w->picture, width, height);
+    if (!status)
+        status = gpu_commands_submit(device, &w->commands);
+    if (status) // it may not be in the layout that it is taken to have
+        gpu_image_destroy(device, &w->picture.image);
+    return status;
+}
+
 static ag_status make_picture(ag_window *w, const ag_scene *scene, const ag_camera_desc *camera,
                               const ag_render_options *options, ag_render_stats *stats)
 {
@@ -363,13 +383,9 @@ static ag_status make_picture(ag_window *w, const ag_scene *scene, const ag_came
         status = log_fail(&device->log, AG_ERROR_ARGUMENT,
                           "%ux%u px are more than the device shows at once, %u", checked.width,
                           checked.height, device->info.max_size);
-    if (!status)
-        status = gpu_commands_begin(device, &w->commands);
-    if (!status)
-        status = fit_slot(w, &w->picture, checked.width, checked.height);
-    if (!status)
-        status = gpu_commands_submit(device, &w->commands);
     w->has_picture = false;
+    if (!status)
+        status = fit_picture(w, checked.width, checked.height);
     if (!status && checked.bloom > 0)
         status = bring_bloomed(w, scene, camera, &checked, stats);
     else if (!status)
@@ -390,14 +406,15 @@ static ag_status present(ag_window *w, const ag_show_options *show)
     bool ready = false;
     if (!status)
         status = gpu_swapchain_acquire(device, &w->swapchain, show->width, show->height, &ready);
-    if (!status && !ready)
-        return gpu_commands_submit(device, &w->commands);
-    if (!status)
+    if (!status && ready)
         status = record(w, show);
     if (!status)
-        return gpu_swapchain_present(device, &w->swapchain, &w->commands);
-    w->swapchain.stale = true; // an image may have been acquired in vain
-    drop_layers(w);            // nothing was brought to them
+        status = ready ? gpu_swapchain_present(device, &w->swapchain, &w->commands)
+                       : gpu_commands_submit(device, &w->commands);
+    if (status) {
+        w->swapchain.stale = true; // an image may have been acquired in vain
+        drop_layers(w);
+    }
     return status;
 }
 
@@ -416,5 +433,49 @@ ag_status ag_window_show(ag_window *w, const ag_scene *scene, const ag_camera_de
     if (!status)
         status = present(w, show);
     stats->show_ms = clock_ms() - start;
+    return status;
+}
+
+// ---- Taking it back ------------------------------------------------------------
+
+static ag_status read_picture(ag_window *w, const gpu_buffer *to)
+{
+    gpu_device *device = w->renderer->device;
+    const gpu_image *from = &w->picture.image;
+    ag_status status = gpu_commands_begin(device, &w->commands); // waits for the last time
+    if (status)
+        return status;
+    const VkBufferImageCopy region = {
+        .imageSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 },
+        .imageExtent = { from->desc.width, from->desc.height, 1 },
+    };
+    gpu_barrier_image(&w->commands, from, GPU_ACCESS_SAMPLED, GPU_ACCESS_TRANSFER_READ);
+    vkCmdCopyImageToBuffer(w->commands.buffer, from->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           to->buffer, 1, &region);
+    gpu_barrier_image(&w->commands, from, GPU_ACCESS_TRANSFER_READ, GPU_ACCESS_SAMPLED);
+    gpu_barrier_memory(&w->commands, GPU_ACCESS_TRANSFER_WRITE, GPU_ACCESS_HOST_READ);
+    status = gpu_commands_submit(device, &w->commands);
+    return status ? status : gpu_commands_wait(device, &w->commands);
+}
+
+ag_status ag_window_picture(ag_window *w, ag_image **picture)
+{
+    gpu_device *device = w->renderer->device;
+    gpu_buffer pixels = { 0 };
+    *picture = NULL;
+    if (!w->has_picture)
+        return log_fail(&device->log, AG_ERROR_ARGUMENT, "the window shows no picture");
+    const uint32_t width = w->picture.image.desc.width, height = w->picture.image.desc.height;
+    ag_status status =
+        gpu_buffer_create(device, (VkDeviceSize)width * height * 4,
+                          VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_MEMORY_READBACK, &pixels);
+    if (!status)
+        status = read_picture(w, &pixels);
+    const ag_image_desc desc = { width, height, AG_FORMAT_RGBA8, NULL };
+    if (!status)
+        status = ag_image_create(&device->log, &desc, picture);
+    if (!status)
+        pixels_place(pixels.memory.mapped, (view_rect) { 0, 0, width, height }, *picture);
+    gpu_buffer_destroy(device, &pixels);
     return status;
 }

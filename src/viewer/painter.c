@@ -98,8 +98,7 @@ static ag_status paint(painter *p)
         status =
             ag_window_show(p->window, o->scene, &o->camera, &o->options, &o->show, &result->stats);
     if (!status && o->scene && o->keeps)
-        status =
-            ag_renderer_render(p->renderer, o->scene, &o->camera, &o->options, &result->kept, NULL);
+        status = ag_window_picture(p->window, &result->kept);
     result->has_picture = !status && o->scene;
     return status;
 }
