@@ -50,8 +50,8 @@ static void fill_blocks(void *context, size_t row)
         float sum = 0;
         for (int y = top; y < bottom; y++)
             for (int x = left; x < right; x++) {
-                const uint8_t *p =
-                    b->map->pixels + 4 * ((size_t)y * (size_t)b->map->width + (size_t)x);
+                const uint8_t *p = b->map->pixels +
+                                   b->map->stride * ((size_t)y * (size_t)b->map->width + (size_t)x);
                 uint8_t most = p[0] > p[1] ? p[0] : p[1];
                 sum += b->decode[most > p[2] ? most : p[2]];
             }

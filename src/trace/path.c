@@ -148,19 +148,15 @@ static float greatest(vec3 v)
     return max(v[0], max(v[1], v[2]));
 }
 
-static void light_by_sky(path *p)
+static void light_by_sky(path *p, const sky_look *sky)
 {
-    vec2 u = sampler_pair(&p->dice);
-    if (p->scene->options.estimator == AG_ESTIMATOR_SURFACE)
+    if (!(sky->density > 0) || dot(sky->direction, p->lit.normal) <= 0)
         return;
-    sky_look sky = sky_sample(&p->scene->sky, u);
-    if (!(sky.density > 0) || dot(sky.direction, p->lit.normal) <= 0)
-        return;
-    scattered s = bsdf_evaluate_sky(&p->bsdf, sky.direction);
+    scattered s = bsdf_evaluate_sky(&p->bsdf, sky->direction);
     vec3 f = sky_part(p, &s.f);
-    float weight = weight_of_light(p, sky.density, s.density) / sky.density;
+    float weight = weight_of_light(p, sky->density, s.density) / sky->density;
     if (greatest(f) > 0)
-        await(p, sky.direction, INFINITY, p->throughput * f * sky.radiance * weight);
+        await(p, sky->direction, INFINITY, p->throughput * f * sky->radiance * weight);
 }
 
 static void light_by_lights(path *p)
@@ -200,9 +196,9 @@ static void light_by_emitters(path *p)
               p->throughput * f * light * (weight / found.density));
 }
 
-static bool wants_sky(const path *p)
+static bool wants_sky(const path_scene *s)
 {
-    return p->scene->sky.image && wants(p, AG_PART_DIFFUSE | AG_PART_SPECULAR);
+    return s->sky.image && (s->picture.parts & (AG_PART_DIFFUSE | AG_PART_SPECULAR));
 }
 
 static bool wants_emitters(const path *p)
@@ -218,12 +214,11 @@ static void meet_body(void *context, vec3 radiance, float density)
     add(p, p->throughput * radiance * weight_of_surface(p, p->density, density));
 }
 
-static void add_sky(path *p)
+static void add_sky(path *p, const sky_look *sky)
 {
-    sky_look sky = sky_at(&p->scene->sky, p->direction);
-    float weight = weight_of_surface(p, p->density, sky.density);
+    float weight = weight_of_surface(p, p->density, sky->density);
     if (weight > 0)
-        add(p, p->throughput * p->sky_share * sky.radiance * weight);
+        add(p, p->throughput * p->sky_share * sky->radiance * weight);
 }
 
 static void add_emission(path *p, vec3 light)
@@ -240,7 +235,7 @@ static void add_emission(path *p, vec3 light)
 
 static float emitters_at(const path *p, vec3 position)
 {
-    float sky = wants_sky(p) ? sky_irradiance(&p->scene->sky) : 0;
+    float sky = wants_sky(p->scene) ? sky_irradiance(&p->scene->sky) : 0;
     float found = emitters_irradiance(&p->scene->emitters, position);
     return found < FAINT * sky ? max(found / (FAINT * sky), SELDOM) : 1;
 }
@@ -259,8 +254,6 @@ static void stand_on(path *p, const place *at)
 static bool ask_lights(path *p)
 {
     const trace_lights *lights = &p->scene->lights;
-    if (wants_sky(p))
-        light_by_sky(p);
     if (p->lights > 0)
         light_by_lights(p);
     if (lights->ambient_present && wants(p, AG_PART_LIGHTS))
@@ -327,8 +320,8 @@ static bool is_last(const path *p)
     return o->direct_only || (o->max_bounces && p->scattered > o->max_bounces);
 }
 
-// To the next surface, and the light that is met before.
-static bool go_on(path *p)
+// The next surface, and the light that is met before.
+static bool meet_surface(path *p)
 {
     const ray r = { .origin = p->lit.position,
                     .direction = p->direction,
@@ -342,8 +335,6 @@ static bool go_on(path *p)
     if (p->lights > 0)
         lights_along(&p->scene->lights, &p->lit, p->lights, p->direction,
                      met ? p->hit.distance : INFINITY, meet_body, p);
-    if (!met && wants_sky(p))
-        add_sky(p);
     return met;
 }
 
@@ -393,11 +384,10 @@ static bool see_body(const path_scene *s, const ray *r, const hit *met, path_res
 }
 
 // True where the path begins at the first surface.
-static bool see_surface(path *p, const ray *r)
+static bool see_surface(path *p)
 {
     const path_scene *s = p->scene;
-    place at = place_at(&s->world, &p->hit, -r->direction);
-    p->direction = r->direction;
+    place at = place_at(&s->world, &p->hit, -p->direction);
     p->result->depth = dot(at.position - loaded(s->view.eye), loaded(s->view.forward));
     p->result->normal = at.unlit ? at.face : at.normal;
     add_seen(s, p->result, at.unlit ? at.base_color : at.emission);
@@ -409,15 +399,18 @@ static bool see_surface(path *p, const ray *r)
 // ---- Bundles -------------------------------------------------------------------------
 
 typedef struct bundle {
+    const path_scene *scene;
     path paths[PATH_BUNDLE];
     path *live[PATH_BUNDLE];
     size_t count; // of those that live
 } bundle;
 
 // What is not set here is set before it is read: a path is large.
-static void begin(path *p, const path_scene *s, sampler dice, const hit *met, path_result *result)
+static void begin(path *p, const path_scene *s, const ray *r, sampler dice, const hit *met,
+                  path_result *result)
 {
     p->scene = s;
+    p->direction = r->direction;
     p->dice = dice;
     p->throughput = p->part_share = p->sky_share = vec3(1, 1, 1);
     p->scattered = p->pending_count = 0;
@@ -433,10 +426,9 @@ static void see(bundle *b, const path_scene *s, const ray *r, sampler dice, cons
     if (s->lights.bodies && see_body(s, r, met, result))
         return;
     if (met) {
-        path *p = &b->paths[b->count];
-        begin(p, s, dice, met, result);
-        if (see_surface(p, r))
-            b->live[b->count++] = p;
+        path *p = b->live[b->count] = &b->paths[b->count];
+        begin(p, s, r, dice, met, result);
+        b->count++;
     } else if (s->picture.background == AG_BACKGROUND_ENVIRONMENT) {
         add_seen(s, result, sky_radiance(&s->sky, r->direction));
     }
@@ -463,6 +455,7 @@ static void start(bundle *b, const path_scene *s, const path_work *work, size_t 
     eye_samples samples = { 0 };
     unsigned lane = 0;
     size_t done = 0;
+    b->scene = s;
     b->count = 0;
     for (size_t i = 0; i < pixels; i++) {
         uint32_t seed = sampler_mix(sampler_mix(s->options.seed, work[i].x), work[i].y);
@@ -492,15 +485,65 @@ static void step(bundle *b, bool (*take)(path *))
     b->count = count;
 }
 
+static void expect_places(const bundle *b)
+{
+    const hit *hits[PATH_BUNDLE];
+    for (size_t i = 0; i < b->count; i++)
+        hits[i] = &b->live[i]->hit;
+    place_expect(hits, b->count);
+}
+
+static void ask_sky(bundle *b)
+{
+    vec2 u[PATH_BUNDLE];
+    sky_look looks[PATH_BUNDLE];
+    if (!wants_sky(b->scene))
+        return;
+    for (size_t i = 0; i < b->count; i++)
+        u[i] = sampler_pair(&b->live[i]->dice);
+    if (b->scene->options.estimator == AG_ESTIMATOR_SURFACE)
+        return;
+    sky_sample(&b->scene->sky, b->count, u, looks);
+    for (size_t i = 0; i < b->count; i++)
+        light_by_sky(b->live[i], &looks[i]);
+}
+
+// To the next surfaces; what meets none sees the sky.
+static void go_on(bundle *b)
+{
+    path *out[PATH_BUNDLE];
+    sky_look looks[PATH_BUNDLE];
+    size_t met = 0, missed = 0;
+    for (size_t i = 0; i < b->count; i++) {
+        path *p = b->live[i];
+        if (meet_surface(p))
+            b->live[met++] = p;
+        else
+            out[missed++] = p;
+    }
+    b->count = met;
+    expect_places(b);
+    if (!wants_sky(b->scene))
+        return;
+    for (size_t i = 0; i < missed; i++)
+        looks[i].direction = out[i]->direction;
+    sky_at(&b->scene->sky, missed, looks);
+    for (size_t i = 0; i < missed; i++)
+        add_sky(out[i], &looks[i]);
+}
+
 void path_follow(const path_scene *s, const path_work *work, size_t pixels, path_result *results)
 {
     bundle b;
     start(&b, s, work, pixels, results);
+    expect_places(&b);
+    step(&b, see_surface);
     while (b.count) {
+        ask_sky(&b);
         step(&b, ask_lights);
         step(&b, settle_lights);
         step(&b, scatter);
-        step(&b, go_on);
+        go_on(&b);
         step(&b, arrive);
     }
 }

@@ -40,7 +40,7 @@ typedef struct path_work {
 
 // Follow the samples of some pixels, together at most PATH_BUNDLE, side by side; results in the
 // same order.
-enum { PATH_BUNDLE = 64 };
+enum { PATH_BUNDLE = SKY_MANY };
 void path_follow(const path_scene *s, const path_work *work, size_t pixels, path_result *results);
 
 #endif

@@ -10,16 +10,38 @@ typedef struct corners {
     vec3 position[3], normal[3]; // world space
 } corners;
 
+static const uint32_t *indices_of(const hit *h)
+{
+    return h->instance->mesh->indices + 3 * (size_t)h->triangle;
+}
+
 static corners corners_of(const hit *h)
 {
     corners c = { .weight = { 1 - h->u - h->v, h->u, h->v } };
-    const uint32_t *index = h->instance->mesh->indices + 3 * (size_t)h->triangle;
+    const uint32_t *index = indices_of(h);
     for (int i = 0; i < 3; i++) {
         c.at[i] = &h->instance->mesh->vertices[index[i]];
         c.position[i] = world_point(h->instance, c.at[i]->position);
         c.normal[i] = world_normal(h->instance, c.at[i]->normal);
     }
     return c;
+}
+
+void place_expect(const hit *const *hits, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        __builtin_prefetch(indices_of(hits[i]));
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            const scene_vertex *v = &hits[i]->instance->mesh->vertices[indices_of(hits[i])[c]];
+            __builtin_prefetch(v);
+            __builtin_prefetch((const char *)(v + 1) - 1);
+        }
+    for (size_t i = 0; i < count; i++) {
+        vec2 uv[2];
+        world_uv(hits[i]->instance, hits[i]->triangle, hits[i]->u, hits[i]->v, uv);
+        texture_set_expect(hits[i]->instance->textures, uv);
+    }
 }
 
 static vec3 weighted(const corners *c, const vec3 value[3])
@@ -34,14 +56,6 @@ static vec4 color_of(const corners *c)
         const uint16_t *v = c->at[i]->color;
         sum += (c->weight[i] / 65535) * vec4((float)v[0], (float)v[1], (float)v[2], (float)v[3]);
     }
-    return sum;
-}
-
-static vec2 uv_of(const corners *c, int set)
-{
-    vec2 sum = { 0, 0 };
-    for (int i = 0; i < 3; i++)
-        sum += c->weight[i] * vec2(c->at[i]->uv[set][0], c->at[i]->uv[set][1]);
     return sum;
 }
 
@@ -62,10 +76,11 @@ typedef struct reading {
     bool found;
 } reading;
 
-static reading reading_at(const world *w, const hit *h, const corners *c)
+static reading reading_at(const world *w, const hit *h)
 {
-    return (
-        reading) { .world = w, .set = h->instance->textures, .uv = { uv_of(c, 0), uv_of(c, 1) } };
+    reading r = { .world = w, .set = h->instance->textures };
+    world_uv(h->instance, h->triangle, h->u, h->v, r.uv);
+    return r;
 }
 
 static void seek(reading *r, const texture_use *use)
@@ -209,7 +224,7 @@ place place_at(const world *w, const hit *h, vec3 wo)
     bool front = dot(h->normal, wo) > 0;
     float side = front ? 1 : -1;
     p.face = normalize(h->normal / max(reach(h->normal), 1e-37f)) * side;
-    reading r = reading_at(w, h, &c);
+    reading r = reading_at(w, h);
     vec4 base = vec4(d->base_color[0], d->base_color[1], d->base_color[2], 1) *
                 read_color(&r, &h->instance->textures->base_color);
     if (h->instance->mesh->has_colors)
@@ -243,7 +258,6 @@ vec3 place_emission(const world *w, const hit *h, vec3 wo)
 {
     if (!shines(h->instance->material, dot(h->normal, wo) > 0))
         return vec3(0, 0, 0);
-    corners c = corners_of(h);
-    reading r = reading_at(w, h, &c);
+    reading r = reading_at(w, h);
     return emission_at(h->instance, &r);
 }

@@ -16,6 +16,9 @@ typedef struct place {
     bool unlit;
 } place;
 
+// Many hits wait for memory together: tell it that place_at() will ask for them.
+void place_expect(const hit *const *hits, size_t count);
+
 // `wo` back along the ray, unit.
 place place_at(const world *w, const hit *h, vec3 wo);
 

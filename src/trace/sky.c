@@ -30,22 +30,48 @@ static vec3 texel(const ag_image *image, uint32_t x, uint32_t y)
     return vec3(p[0], p[1], p[2]);
 }
 
+// Where an image is read: the texels that lie around, and how far it is between them.
+typedef struct between {
+    const float *texel[4]; // upper left and right, lower left and right
+    float x, y;
+} between;
+
 // As the renderer's sampler: around in u, held in v.
-static vec3 lookup(const ag_image *image, vec2 uv)
+static between between_texels(const ag_image *image, vec2 uv)
 {
     int width = (int)image->width, height = (int)image->height;
     float x = uv[0] * (float)width - 0.5f, y = uv[1] * (float)height - 0.5f;
     int x0 = (int)(x + 1) - 1, y0 = (int)(y + 1) - 1, x1 = x0 + 1, y1 = y0 + 1; // from -1 on
-    float fx = x - (float)x0, fy = y - (float)y0;
+    between b = { .x = x - (float)x0, .y = y - (float)y0 };
     x0 = x0 < 0 ? x0 + width : x0;
     x1 = x1 >= width ? x1 - width : x1;
     y0 = y0 < 0 ? 0 : y0;
     y1 = y1 >= height ? height - 1 : y1;
-    vec3 upper =
-        mix(texel(image, (uint32_t)x0, (uint32_t)y0), texel(image, (uint32_t)x1, (uint32_t)y0), fx);
-    vec3 lower =
-        mix(texel(image, (uint32_t)x0, (uint32_t)y1), texel(image, (uint32_t)x1, (uint32_t)y1), fx);
-    return mix(upper, lower, fy);
+    const float *upper = (const float *)image->pixels + 4 * (size_t)y0 * (size_t)width;
+    const float *lower = (const float *)image->pixels + 4 * (size_t)y1 * (size_t)width;
+    b.texel[0] = upper + 4 * x0;
+    b.texel[1] = upper + 4 * x1;
+    b.texel[2] = lower + 4 * x0;
+    b.texel[3] = lower + 4 * x1;
+    return b;
+}
+
+static vec3 color_of(const float *texel)
+{
+    return vec3(texel[0], texel[1], texel[2]);
+}
+
+static vec3 read(const between *b)
+{
+    return mix(mix(color_of(b->texel[0]), color_of(b->texel[1]), b->x),
+               mix(color_of(b->texel[2]), color_of(b->texel[3]), b->x), b->y);
+}
+
+// Each of many readings waits for memory: they are told of first, and wait together.
+static void tell(const between *b)
+{
+    __builtin_prefetch(b->texel[0]);
+    __builtin_prefetch(b->texel[2]);
 }
 
 static vec3 sky_from_world(const trace_sky *s, vec3 d)
@@ -82,12 +108,12 @@ static float share(int x, int from, int to)
 // The first pixel of a cell, of so many of both in a line; and the cell that holds a pixel.
 static int pixel_of(int cell, int pixels, int cells)
 {
-    return (int)((int64_t)cell * pixels / cells);
+    return cells == pixels ? cell : (int)((int64_t)cell * pixels / cells);
 }
 
 static int cell_of(int pixel, int pixels, int cells)
 {
-    return (int)((((int64_t)pixel + 1) * cells - 1) / pixels);
+    return cells == pixels ? pixel : (int)((((int64_t)pixel + 1) * cells - 1) / pixels);
 }
 
 // The light of one line of pixels in a cell.
@@ -211,11 +237,18 @@ void sky_finish(trace_sky *s)
     *s = (trace_sky) { 0 };
 }
 
+// ---- Looking -----------------------------------------------------------------------
+
+static int guide_of(float u)
+{
+    return (int)(u * SKY_GUIDES);
+}
+
 // The cell at share `u` of a line's sum; `*within` where in it.
 static int find(const sky_line *l, float u, float *within)
 {
     float x = u * l->sums[l->count];
-    int guide = (int)(u * SKY_GUIDES), low = l->guides[guide], high = l->guides[guide + 1] + 1;
+    int guide = guide_of(u), low = l->guides[guide], high = l->guides[guide + 1] + 1;
     while (high - low > 1) {
         int middle = (low + high) / 2;
         if (l->sums[middle] <= x)
@@ -245,32 +278,54 @@ static float density_of(const trace_sky *s, int row, int column)
     return chance(&rows, row) * chance(&cells, column) / size;
 }
 
-// Within a row heights are drawn evenly in the cosine, so that density over the sphere is
-// constant in a cell.
-sky_look sky_sample(const trace_sky *s, vec2 u)
+// Where a direction lies, and its cell.
+typedef struct spot {
+    between texels;
+    int row, column;
+} spot;
+
+static void look(const trace_sky *s, const spot *at, sky_look *look)
 {
-    float across, down;
-    sky_line rows = line_of(s, s->rows);
-    int row = find(&rows, u[1], &down), width = (int)s->image->width;
-    sky_line cells = line_of(s, row);
-    int column = find(&cells, u[0], &across), left = pixel_of(column, width, s->columns);
-    int right = pixel_of(column + 1, width, s->columns);
-    float turn = ((float)left + across * (float)(right - left)) / (float)width;
-    float y = mix(s->heights[row], s->heights[row + 1], down);
-    float r = sqrtf(max(1 - y * y, 0.0f)); // half a turn from the seam is +X
-    vec2 uv = vec2(turn, elementary_angle(r, y) * INV_PI);
-    return (sky_look) {
-        .direction =
-            world_from_sky(s, vec3(-r * elementary_cos(turn), y, -r * elementary_sin(turn))),
-        .radiance = s->intensity * lookup(s->image, uv),
-        .density = density_of(s, row, column),
-    };
+    look->radiance = s->intensity * read(&at->texels);
+    look->density = density_of(s, at->row, at->column);
 }
 
-static int pixel_at(float share, int pixels)
+// Within a row heights are drawn evenly in the cosine, so that density over the sphere is
+// constant in a cell.
+static vec3 draw(const trace_sky *s, vec2 u, float down, spot *at)
 {
-    int pixel = (int)(share * (float)pixels);
-    return pixel < 0 ? 0 : pixel < pixels ? pixel : pixels - 1;
+    float across;
+    sky_line cells = line_of(s, at->row);
+    int width = (int)s->image->width;
+    at->column = find(&cells, u[0], &across);
+    int left = pixel_of(at->column, width, s->columns);
+    int right = pixel_of(at->column + 1, width, s->columns);
+    float turn = ((float)left + across * (float)(right - left)) / (float)width;
+    float y = mix(s->heights[at->row], s->heights[at->row + 1], down);
+    float r = sqrtf(max(1 - y * y, 0.0f)); // half a turn from the seam is +X
+    at->texels = between_texels(s->image, vec2(turn, elementary_angle(r, y) * INV_PI));
+    return world_from_sky(s, vec3(-r * elementary_cos(turn), y, -r * elementary_sin(turn)));
+}
+
+void sky_sample(const trace_sky *s, size_t count, const vec2 *u, sky_look *looks)
+{
+    spot at[SKY_MANY];
+    float down[SKY_MANY];
+    sky_line rows = line_of(s, s->rows);
+    for (size_t i = 0; i < count; i++) {
+        at[i].row = find(&rows, u[i][1], &down[i]);
+        __builtin_prefetch(&line_of(s, at[i].row).guides[guide_of(u[i][0])]);
+    }
+    for (size_t i = 0; i < count; i++) {
+        sky_line cells = line_of(s, at[i].row);
+        __builtin_prefetch(&cells.sums[cells.guides[guide_of(u[i][0])]]);
+    }
+    for (size_t i = 0; i < count; i++) {
+        looks[i].direction = draw(s, u[i], down[i], &at[i]);
+        tell(&at[i].texels);
+    }
+    for (size_t i = 0; i < count; i++)
+        look(s, &at[i], &looks[i]);
 }
 
 // The cells' light is radiance times difference of the cosine, over pixels around.
@@ -286,18 +341,33 @@ vec3 sky_radiance(const trace_sky *s, vec3 direction)
 {
     if (!s->image)
         return vec3(0, 0, 0);
-    return s->intensity * lookup(s->image, uv_of(sky_from_world(s, direction)));
+    between texels = between_texels(s->image, uv_of(sky_from_world(s, direction)));
+    return s->intensity * read(&texels);
 }
 
-sky_look sky_at(const trace_sky *s, vec3 direction)
+static int pixel_at(float share, int pixels)
 {
-    sky_look look = { .direction = direction };
-    if (!s->image)
-        return look;
+    int pixel = (int)(share * (float)pixels);
+    return pixel < 0 ? 0 : pixel < pixels ? pixel : pixels - 1;
+}
+
+static spot spot_of(const trace_sky *s, vec3 direction)
+{
     int width = (int)s->image->width, height = (int)s->image->height;
     vec2 uv = uv_of(sky_from_world(s, direction));
-    look.radiance = s->intensity * lookup(s->image, uv);
-    look.density = density_of(s, cell_of(pixel_at(uv[1], height), height, s->rows),
-                              cell_of(pixel_at(uv[0], width), width, s->columns));
-    return look;
+    return (spot) { .texels = between_texels(s->image, uv),
+                    .row = cell_of(pixel_at(uv[1], height), height, s->rows),
+                    .column = cell_of(pixel_at(uv[0], width), width, s->columns) };
+}
+
+void sky_at(const trace_sky *s, size_t count, sky_look *looks)
+{
+    spot at[SKY_MANY];
+    for (size_t i = 0; i < count; i++) {
+        at[i] = spot_of(s, looks[i].direction);
+        tell(&at[i].texels);
+        __builtin_prefetch(&line_of(s, at[i].row).sums[at[i].column]);
+    }
+    for (size_t i = 0; i < count; i++)
+        look(s, &at[i], &looks[i]);
 }

@@ -43,7 +43,11 @@ typedef struct sky_look {
 float sky_irradiance(const trace_sky *s);
 
 vec3 sky_radiance(const trace_sky *s, vec3 direction); // nit
-sky_look sky_at(const trace_sky *s, vec3 direction);
-sky_look sky_sample(const trace_sky *s, vec2 u);
+
+// Of up to SKY_MANY directions at a time: what each reads is not near, and is waited for together.
+// Of a sky without an image nothing may be asked.
+enum { SKY_MANY = 64 };
+void sky_at(const trace_sky *s, size_t count, sky_look *looks); // of their directions
+void sky_sample(const trace_sky *s, size_t count, const vec2 *u, sky_look *looks);
 
 #endif

@@ -2,9 +2,11 @@
 #include "trace/texture.h"
 
 #include "base/log.h"
+#include "base/threads.h"
 #include "image/image.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 // KHR_texture_transform, as src/render/materials.c has it.
 static void set_transform(const ag_texture_use *from, texture_use *use)
@@ -26,6 +28,7 @@ static bool use_init(const ag_scene *scene, const ag_texture_use *from, texture_
     const scene_texture *texture = &scene->textures[from->texture.id - 1];
     const ag_image *image = texture->image;
     use->pixels = image->pixels;
+    use->stride = 4;
     use->width = (int)image->width;
     use->height = (int)image->height;
     use->wrap_u = (uint8_t)texture->desc.wrap_u;
@@ -35,15 +38,18 @@ static bool use_init(const ag_scene *scene, const ag_texture_use *from, texture_
     return use->pixels != NULL;
 }
 
+enum { USES = 6 };
+#define USES_OF(set)                                                                               \
+    {                                                                                              \
+        &(set)->base_color, &(set)->metallic_roughness, &(set)->normal, &(set)->emissive,          \
+            &(set)->specular, &(set)->specular_color                                               \
+    }
+
 static void set_alike(texture_set *set)
 {
-    const texture_use *uses[] = {
-        &set->base_color, &set->metallic_roughness, &set->normal,
-        &set->emissive,   &set->specular,           &set->specular_color
-    };
-    const texture_use *first = NULL;
+    const texture_use *uses[USES] = USES_OF(set), *first = NULL;
     set->alike = true;
-    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+    for (size_t i = 0; i < USES; i++) {
         if (!uses[i]->pixels)
             continue;
         set->alike &= !first || texture_alike(first, uses[i]);
@@ -66,6 +72,78 @@ ag_status texture_set_init(const ag_scene *scene, const ag_material_desc *m, tex
     set_alike(set);
     return AG_OK;
 }
+
+// ---- Weaving ---------------------------------------------------------------------
+
+typedef struct weaving {
+    const uint8_t *from[USES];
+    size_t count, stride, width;
+    uint8_t *to;
+} weaving;
+
+static void weave_row(void *context, size_t row)
+{
+    const weaving *w = context;
+    for (size_t k = 0; k < w->count; k++) {
+        const uint8_t *from = w->from[k] + 4 * row * w->width;
+        uint8_t *to = w->to + w->stride * row * w->width + 4 * k;
+        for (size_t x = 0; x < w->width; x++)
+            memcpy(to + w->stride * x, from + 4 * x, 4);
+    }
+}
+
+// The images of a set, each once; `lane[i]`: of use i.
+static weaving weaving_of(texture_use *const use[USES], size_t lane[USES])
+{
+    weaving w = { .stride = 8 };
+    for (size_t i = 0; i < USES; i++) {
+        if (!use[i]->pixels)
+            continue;
+        size_t k = 0;
+        while (k < w.count && w.from[k] != use[i]->pixels)
+            k++;
+        w.from[k] = use[i]->pixels;
+        w.count = k == w.count ? k + 1 : w.count;
+        lane[i] = k;
+    }
+    while (w.stride < 4 * w.count) // no texel lies in two lines of the cache
+        w.stride *= 2;
+    return w;
+}
+
+size_t texture_set_weave(texture_set *set, size_t limit)
+{
+    texture_use *const use[USES] = USES_OF(set);
+    size_t lane[USES] = { 0 }, height = 0;
+    weaving w = weaving_of(use, lane);
+    if (!set->alike || w.count < 2)
+        return 0;
+    for (size_t i = 0; i < USES; i++)
+        if (use[i]->pixels) {
+            w.width = (size_t)use[i]->width;
+            height = (size_t)use[i]->height;
+        }
+    size_t size = w.stride * w.width * height;
+    w.to = size <= limit ? aligned_alloc(64, (size + 63) / 64 * 64) : NULL;
+    if (!w.to)
+        return 0;
+    parallel_for(height, weave_row, &w);
+    for (size_t i = 0; i < USES; i++)
+        if (use[i]->pixels) {
+            use[i]->pixels = w.to + 4 * lane[i];
+            use[i]->stride = (uint32_t)w.stride;
+        }
+    set->woven = w.to;
+    return size;
+}
+
+void texture_set_finish(texture_set *set)
+{
+    free(set->woven);
+    set->woven = NULL;
+}
+
+// ---- Reading ---------------------------------------------------------------------
 
 // Texel of a coordinate in texels.
 static int wrapped(int i, int size, uint8_t wrap)
@@ -123,6 +201,20 @@ texture_place texture_find(const texture_use *use, const vec2 uv[2])
     };
 }
 
+void texture_set_expect(const texture_set *set, const vec2 uv[2])
+{
+    const texture_use *const use[USES] = USES_OF(set);
+    for (size_t i = 0; i < USES; i++) {
+        if (!use[i]->pixels)
+            continue;
+        texture_place place = texture_find(use[i], uv);
+        __builtin_prefetch(use[i]->pixels + use[i]->stride * place.texel[0]);
+        __builtin_prefetch(use[i]->pixels + use[i]->stride * place.texel[2]);
+        if (set->woven)
+            return;
+    }
+}
+
 bool texture_alike(const texture_use *a, const texture_use *b)
 {
     return a->width == b->width && a->height == b->height && a->wrap_u == b->wrap_u &&
@@ -136,7 +228,7 @@ vec4 texture_read(const texture_use *use, const texture_place *place)
     if (!use->pixels)
         return sum + 1.0f;
     for (int i = 0; i < 4; i++) {
-        const uint8_t *p = use->pixels + 4 * place->texel[i];
+        const uint8_t *p = use->pixels + use->stride * place->texel[i];
         sum += (place->weight[i] * (1.0f / 255)) *
                vec4((float)p[0], (float)p[1], (float)p[2], (float)p[3]);
     }
@@ -149,7 +241,7 @@ vec4 texture_read_color(const texture_use *use, const texture_place *place, cons
     if (!use->pixels)
         return sum + 1.0f;
     for (int i = 0; i < 4; i++) {
-        const uint8_t *p = use->pixels + 4 * place->texel[i];
+        const uint8_t *p = use->pixels + use->stride * place->texel[i];
         sum += place->weight[i] *
                vec4(decode[p[0]], decode[p[1]], decode[p[2]], (float)p[3] * (1.0f / 255));
     }

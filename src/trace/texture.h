@@ -7,6 +7,7 @@
 
 typedef struct texture_use {
     const uint8_t *pixels; // RGBA; NULL -> none
+    uint32_t stride;       // bytes from texel to texel
     int width, height;
     uint8_t wrap_u, wrap_v; // ag_wrap
     bool nearest;
@@ -17,11 +18,19 @@ typedef struct texture_use {
 typedef struct texture_set {
     bool alike; // all that are there have the same place everywhere
     texture_use base_color, metallic_roughness, normal, emissive, specular, specular_color;
+    uint8_t *woven; // those that are alike, texel beside texel: a place of all is in one line of
+                    // the cache; NULL -> each by itself
 } texture_set;
 
 // AG_ERROR_ARGUMENT where the scene's images were given to a renderer.
 AG_CHECK ag_status texture_set_init(const ag_scene *scene, const ag_material_desc *material,
                                     texture_set *set);
+
+void texture_set_finish(texture_set *set); // zero is allowed
+
+// Weave textures that are alike into one; where there is no memory they stay as they are.  At most
+// `limit` bytes; says how many it took.
+size_t texture_set_weave(texture_set *set, size_t limit);
 
 // Where a texture is read: four texels and their weights.
 typedef struct texture_place {
@@ -31,6 +40,9 @@ typedef struct texture_place {
 
 // Of the mesh's coordinates `uv` (both sets).  A texture that is not there has no place.
 texture_place texture_find(const texture_use *use, const vec2 uv[2]);
+
+// Tell the memory that a set will be read there.
+void texture_set_expect(const texture_set *set, const vec2 uv[2]);
 
 // Whether two textures that are there have the same place everywhere.
 bool texture_alike(const texture_use *a, const texture_use *b);

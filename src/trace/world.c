@@ -34,13 +34,33 @@ static bool has_holes(const ag_material_desc *m)
     return m->alpha_mode != AG_ALPHA_OPAQUE;
 }
 
+// Of all that is woven: the pictures of a scene are kept twice so far.
+static const size_t WOVEN_MAX = (size_t)256 << 20;
+
+static ag_status make_textures(const ag_scene *scene, world *w)
+{
+    size_t woven = 0;
+    w->texture_count = 0;
+    w->textures = calloc(scene->materials_count + 1, sizeof *w->textures);
+    if (!w->textures)
+        return log_fail(&w->log, AG_ERROR_MEMORY, "no memory for %zu materials",
+                        scene->materials_count);
+    w->texture_count = scene->materials_count;
+    for (size_t i = 0; i < scene->materials_count; i++) {
+        ag_status status = texture_set_init(scene, &scene->materials[i], &w->textures[i]);
+        if (status)
+            return status;
+        woven += texture_set_weave(&w->textures[i], WOVEN_MAX - woven);
+    }
+    return AG_OK;
+}
+
 static ag_status make_instances(const ag_scene *scene, world *w)
 {
     uint32_t *shown = calloc(scene->meshes_count + 1, sizeof *shown);
     w->instances = aligned_alloc(_Alignof(world_instance),
                                  (scene->instances_count + 1) * sizeof *w->instances);
-    w->textures = calloc(scene->materials_count + 1, sizeof *w->textures);
-    if (!shown || !w->instances || !w->textures) {
+    if (!shown || !w->instances) {
         free(shown);
         return log_fail(&w->log, AG_ERROR_MEMORY, "no memory for %zu instances",
                         scene->instances_count);
@@ -62,10 +82,7 @@ static ag_status make_instances(const ag_scene *scene, world *w)
     }
     w->instance_count = scene->instances_count;
     free(shown);
-    ag_status status = AG_OK;
-    for (size_t i = 0; i < scene->materials_count && !status; i++)
-        status = texture_set_init(scene, &scene->materials[i], &w->textures[i]);
-    return status;
+    return AG_OK;
 }
 
 // ---- What is not wholly there ----------------------------------------------------
@@ -89,10 +106,15 @@ ray world_ray(const ray_packet *p, unsigned lane)
     };
 }
 
-static vec2 mixed(const float a[2], const float b[2], const float c[2], float u, float v)
+void world_uv(const world_instance *i, uint32_t triangle, float u, float v, vec2 uv[2])
 {
-    float t = 1 - u - v;
-    return vec2(t * a[0] + u * b[0] + v * c[0], t * a[1] + u * b[1] + v * c[1]);
+    const uint32_t *at = i->mesh->indices + 3 * (size_t)triangle;
+    const scene_vertex *vertices = i->mesh->vertices;
+    for (int set = 0; set < 2; set++) {
+        const float *a = vertices[at[0]].uv[set], *b = vertices[at[1]].uv[set],
+                    *c = vertices[at[2]].uv[set];
+        uv[set] = (1 - u - v) * vec2(a[0], a[1]) + u * vec2(b[0], b[1]) + v * vec2(c[0], c[1]);
+    }
 }
 
 float world_opacity(const world_instance *i, uint32_t triangle, float u, float v)
@@ -101,13 +123,12 @@ float world_opacity(const world_instance *i, uint32_t triangle, float u, float v
     if (m->alpha_mode == AG_ALPHA_OPAQUE)
         return 1;
     const uint32_t *at = i->mesh->indices + 3 * (size_t)triangle;
-    const scene_vertex *a = &i->mesh->vertices[at[0]], *b = &i->mesh->vertices[at[1]],
-                       *c = &i->mesh->vertices[at[2]];
-    const vec2 uv[2] = { mixed(a->uv[0], b->uv[0], c->uv[0], u, v),
-                         mixed(a->uv[1], b->uv[1], c->uv[1], u, v) };
-    float color =
-        ((1 - u - v) * (float)a->color[3] + u * (float)b->color[3] + v * (float)c->color[3]) /
-        65535;
+    const scene_vertex *vertices = i->mesh->vertices;
+    vec2 uv[2];
+    world_uv(i, triangle, u, v, uv);
+    float color = ((1 - u - v) * (float)vertices[at[0]].color[3] +
+                   u * (float)vertices[at[1]].color[3] + v * (float)vertices[at[2]].color[3]) /
+                  65535;
     const texture_use *map = &i->textures->base_color;
     texture_place place = texture_find(map, uv);
     float alpha = m->base_color[3] * color * texture_read(map, &place)[3];
@@ -356,7 +377,9 @@ ag_status world_create(const ag_scene *scene, const ag_progress *progress, world
         return log_fail(&w->log, AG_ERROR_UNSUPPORTED,
                         "Embree does not run on this processor (error %d)",
                         (int)rtcGetDeviceError(NULL));
-    ag_status status = make_instances(scene, w);
+    ag_status status = make_textures(scene, w);
+    if (!status)
+        status = make_instances(scene, w);
     if (!status)
         status = make_meshes(scene, w);
     if (!status)
@@ -381,7 +404,9 @@ ag_status world_renew(const ag_scene *scene, const world *from, const ag_progres
     if (!filters_hold(scene, from))
         return world_create(scene, progress, w);
     *w = *from;
-    ag_status status = make_instances(scene, w);
+    ag_status status = make_textures(scene, w);
+    if (!status)
+        status = make_instances(scene, w);
     if (status)
         world_leave(w, from);
     else
@@ -402,6 +427,13 @@ static void release_trees(world *w)
     free(w->meshes);
 }
 
+static void release_textures(world *w)
+{
+    for (size_t i = 0; i < w->texture_count; i++)
+        texture_set_finish(&w->textures[i]);
+    free(w->textures);
+}
+
 void world_leave(world *w, const world *kept)
 {
     if (!kept || w->device != kept->device)
@@ -409,7 +441,7 @@ void world_leave(world *w, const world *kept)
     if (!kept || w->instances != kept->instances)
         free(w->instances);
     if (!kept || w->textures != kept->textures)
-        free(w->textures);
+        release_textures(w);
     *w = (world) { 0 };
 }
 

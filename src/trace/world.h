@@ -28,7 +28,8 @@ typedef struct world {
     size_t mesh_count;
     world_instance *instances;
     size_t instance_count;
-    texture_set *textures;       // by material
+    texture_set *textures; // by material
+    size_t texture_count;
     float decode[256];           // of sRGB
     const ag_progress *progress; // while it is made
     ag_log log;
@@ -97,6 +98,9 @@ static inline vec3 world_direction(const world_instance *i, const float d[3])
     float length2 = dot(v, v);
     return length2 > 0 ? v / sqrtf(length2) : v;
 }
+
+// Both sets of its coordinates at a hit.
+void world_uv(const world_instance *i, uint32_t triangle, float u, float v, vec2 uv[2]);
 
 // The share of a surface that is there at a hit: its alpha, cut off or not.
 float world_opacity(const world_instance *i, uint32_t triangle, float u, float v);

@@ -112,5 +112,5 @@ int main(void)
         cmocka_unit_test(circle_is_exact),
         cmocka_unit_test(filter_is_a_gaussian),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests_name("eye", tests, NULL, NULL);
 }

@@ -59,6 +59,21 @@ static void numbers_are_uniform(void **state)
 
 // ---- Directions of the sky -----------------------------------------------------------------
 
+static sky_look seen_at(const trace_sky *sky, vec3 direction)
+{
+    sky_look look = { .direction = direction };
+    sky_at(sky, 1, &look);
+    return look;
+}
+
+static sky_look drawn_by(const trace_sky *sky, float u, float v)
+{
+    const vec2 pair = { u, v };
+    sky_look look;
+    sky_sample(sky, 1, &pair, &look);
+    return look;
+}
+
 static float noise(uint32_t *state)
 {
     return (float)(sampler_hash(++*state) >> 8) * 0x1p-24f;
@@ -97,12 +112,12 @@ static void assert_drawn_by_density(const trace_sky *sky)
     for (int i = 0; i < BINS_UP * FINE; i++)
         for (int k = 0; k < BINS_AROUND * FINE; k++) {
             vec3 d = direction_at((i + 0.5) / (BINS_UP * FINE), (k + 0.5) / (BINS_AROUND * FINE));
-            wanted[i / FINE][k / FINE] += (double)sky_at(sky, d).density * size;
+            wanted[i / FINE][k / FINE] += (double)seen_at(sky, d).density * size;
         }
     uint32_t seed = 9;
     for (int i = 0; i < DRAWN; i++) {
         float u = noise(&seed), v = noise(&seed);
-        sky_look look = sky_sample(sky, vec2(u, v));
+        sky_look look = drawn_by(sky, u, v);
         double phi = atan2((double)look.direction[2], (double)look.direction[0]) / (2 * pi);
         int up = (int)((1 - (double)look.direction[1]) / 2 * BINS_UP);
         int around = (int)((phi < 0 ? phi + 1 : phi) * BINS_AROUND);
@@ -126,7 +141,7 @@ static void assert_seen_as_drawn(const trace_sky *sky)
     uint32_t seed = 5, differ = 0;
     for (int i = 0; i < 10000; i++) {
         float u = noise(&seed), v = noise(&seed);
-        sky_look drawn = sky_sample(sky, vec2(u, v)), seen = sky_at(sky, drawn.direction);
+        sky_look drawn = drawn_by(sky, u, v), seen = seen_at(sky, drawn.direction);
         // Rounding may put a direction at a cell's edge in the next cell.
         differ += fabsf(seen.density - drawn.density) > 1e-4f * drawn.density;
         assert_true(fabsf(seen.radiance[1] - drawn.radiance[1]) <
