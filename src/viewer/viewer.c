@@ -136,12 +136,16 @@ static ag_status create_parts(viewer *v)
     return status ? status : create_ring(v);
 }
 
-// Jobs take a moment to end, some of them longer: nobody has to look on.
+// Jobs take a moment to end, some of them longer: nobody has to look on.  But a frame is shown to
+// its end: on Wayland it may wait for the window to be seen.
 static void leave(viewer *v)
 {
-    screen_hide(v->screen);
+    static const double frame_s = 0.2;
     worker_stop(v->loading.worker);
     worker_stop(tracer_worker(v->tracer));
+    worker_stop(painter_worker(v->painter));
+    (void)worker_ends(painter_worker(v->painter), frame_s);
+    screen_hide(v->screen);
     painter_close(v->painter);
     hear(v);
 }

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum { SENTENCES_MAX = 32 };
 
@@ -237,6 +238,21 @@ void worker_wait(worker *w)
     while (w->job)
         pthread_cond_wait(&w->changed, &w->lock);
     pthread_mutex_unlock(&w->lock);
+}
+
+bool worker_ends(worker *w, double seconds)
+{
+    struct timespec until;
+    timespec_get(&until, TIME_UTC);
+    long long ns = until.tv_nsec + (long long)(seconds * 1e9);
+    until.tv_sec += (time_t)(ns / 1000000000);
+    until.tv_nsec = (long)(ns % 1000000000);
+    pthread_mutex_lock(&w->lock);
+    while (w->job && pthread_cond_timedwait(&w->changed, &w->lock, &until) == 0)
+        continue;
+    bool ended = !w->job;
+    pthread_mutex_unlock(&w->lock);
+    return ended;
 }
 
 worker_stage worker_at(worker *w)

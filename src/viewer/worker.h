@@ -46,6 +46,7 @@ void worker_stop(worker *w);
 
 // Wait for the end of the job; it is still to be collected.
 void worker_wait(worker *w);
+bool worker_ends(worker *w, double seconds); // so long at most; whether it has ended
 
 typedef struct worker_stage {
     char name[32]; // "" -> none was told

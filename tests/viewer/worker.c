@@ -41,7 +41,10 @@ static void test_who_is_stopped_is_silent(void **state)
     worker_start(one, say_at_the_end, &log);
     worker_start(other, say, &log);
     worker_wait(other);
+    assert_true(worker_ends(other, 0));
+    assert_false(worker_ends(one, 0.01));
     worker_stop(one);
+    assert_true(worker_ends(one, 60));
     worker_wait(one);
     assert_true(worker_is_busy(one));
     assert_true(worker_collect(one, &status) && status == AG_ERROR_CANCELLED);
