@@ -22,9 +22,10 @@ import bpy
 import mathutils
 import numpy
 
-numpy.bool = bool  # Blender 3.4's importer wants the name that numpy has dropped
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import walk  # beside this file
 
-numpy.seterr(all="ignore")  # walks that have ended go on unseen
+numpy.bool = bool  # Blender 3.4's importer wants the name that numpy has dropped
 
 LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722])
 
@@ -240,112 +241,22 @@ def disk_mean(pixels, index):
     return pixels[u * u + v * v < 0.97 ** 2][:, :3].mean(0)
 
 
-# Cycles' Fresnel goes from f0 to 1 as that of glass does; glTF's is Schlick's.  Of this index
-# the two have the same mean over the hemisphere; of 1.5 Cycles' is 13 % higher above f0.
-INDEX = 1.345
-
-
-def fresnel(f0, cosine):
-    g = numpy.sqrt(INDEX * INDEX - 1 + cosine * cosine)
-    ratio = (cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1)
-    glass = ((g - cosine) / (g + cosine)) ** 2 * (1 + ratio * ratio) / 2
-    least = ((INDEX - 1) / (INDEX + 1)) ** 2
-    return f0 + (1 - f0) * (glass - least) / (1 - least)
-
-
-def unit(v):
-    return v / numpy.linalg.norm(v, axis=-1, keepdims=True)
-
-
-def dots(a, b):
-    return (a * b).sum(-1)
-
-
-def smith(z, alpha):
-    """Lambda; of a direction down, -1 - that of its opposite."""
-    z = numpy.where(abs(z) < 1e-5, 1e-5, z)
-    return (numpy.sign(z) * numpy.sqrt(1 + alpha ** 2 * (1 / (z * z) - 1)) - 1) / 2
-
-
-def distribution(z, alpha):
-    return numpy.where(z > 0, alpha ** 2 / math.pi / (1 + (alpha ** 2 - 1) * z * z) ** 2, 0)
-
-
-def visible_normals(v, alpha, draw):
-    """Dupuy & Benyoub 2023, from below too."""
-    scale = numpy.array([alpha, alpha, 1])
-    s = unit(v * scale)
-    z = 1 - draw.random(len(v)) * (1 + s[:, 2])
-    r, phi = numpy.sqrt(numpy.clip(1 - z * z, 0, 1)), 2 * math.pi * draw.random(len(v))
-    return unit((numpy.stack([r * numpy.cos(phi), r * numpy.sin(phi), z], -1) + s) * scale)
-
-
-def one_bounce(wo, wi, alpha, f0):
-    h = unit(wo + wi)
-    return (fresnel(f0, dots(wo, h)) * distribution(h[:, 2], alpha) / (4 * wo[:, 2])
-            / (1 + smith(wo[:, 2], alpha) + smith(wi[:, 2], alpha)))
-
-
-def walk(wo, alpha, f0, wi=None, as_cycles=False):
-    """Heitz et al. 2016, random walks on the microsurface: the albedo seen from each of wo, or
-    the light of wi after more than one bounce, BRDF times cosine.
-
-    `as_cycles`: as Cycles 3.4 evaluates it under a light: from the lower direction, after a
-    bounce upwards at the top of the surface, its Fresnel squared, ten bounces.
-    """
-    draw, factor, start = numpy.random.default_rng(0), 1, 1
-    if as_cycles:
-        low = (wi[:, 2] < wo[:, 2])[:, None]
-        factor = numpy.where(low[:, 0], wi[:, 2] / wo[:, 2], 1)
-        wo, wi = numpy.where(low, wi, wo), numpy.where(low, wo, wi)
-        start = fresnel(f0, dots(wi, unit(wo + wi)))
-    d, sums = -wo, numpy.zeros(len(wo))
-    height, alive = numpy.ones(len(wo)), numpy.full(len(wo), True)
-    weight = start * height
-    for order in range(10 if as_cycles else 40):
-        lambdas, share = smith(d[:, 2], alpha), 1 - draw.random(len(d))
-        leaves = alive & (d[:, 2] > 0) & (share <= height ** numpy.maximum(lambdas, 0))
-        if wi is None:
-            sums += numpy.where(leaves, weight, 0)
-        alive &= ~leaves
-        down = numpy.minimum(height * share ** (-1 / lambdas), 1)
-        height = numpy.where(lambdas > 0, 1, down) if as_cycles else down
-        v, facet = -d, visible_normals(-d, alpha, draw)
-        if wi is not None and order > 0:
-            h = unit(v + wi)
-            area = (v[:, 2] + numpy.sqrt(v[:, 2] ** 2 + alpha ** 2 * (1 - v[:, 2] ** 2))) / 2
-            last = weight if as_cycles else fresnel(f0, numpy.clip(dots(v, h), 0, 1))
-            sums += numpy.where(alive, weight * last * distribution(h[:, 2], alpha) / (4 * area)
-                                * height ** smith(wi[:, 2], alpha), 0)
-        cosine = numpy.clip(dots(v, facet), 0, 1)
-        if not as_cycles or order > 0:
-            weight = weight * fresnel(f0, cosine)
-        d = unit(d + 2 * cosine[:, None] * facet)
-    return sums * factor
-
-
 def lobe_albedo(NoV, roughness, f0=0.04, count=1 << 14):
     wo = numpy.tile([math.sqrt(1 - NoV * NoV), 0, NoV], (count, 1))
-    return walk(wo, roughness ** 2, f0).mean()
+    return walk.walk(wo, roughness ** 2, f0, walk.glass).mean()
 
 
 def walk_over_cycles(index, count=1 << 16):
     """Of a metal sphere's disk under the light: what a walk returns over what Cycles does."""
     _, color, _, roughness, _ = SPHERES[index]
-    draw, alpha = numpy.random.default_rng(1), roughness ** 2
-    r, phi = 0.97 * numpy.sqrt(draw.random(count)), 2 * math.pi * draw.random(count)
-    n = numpy.stack([r * numpy.cos(phi), r * numpy.sin(phi), numpy.sqrt(1 - r * r)], -1)
-    light = unit(numpy.array(LIGHT["position"]) - sphere_center(index) - n)
-    n, light = n[dots(n, light) > 0.01], light[dots(n, light) > 0.01]
-    x = unit(numpy.array([0, 0, 1]) - n[:, 2:] * n)
-    y = numpy.cross(n, x)
-    wo = numpy.stack([x[:, 2], y[:, 2], n[:, 2]], -1)
-    wi = numpy.stack([dots(light, x), dots(light, y), dots(light, n)], -1)
+    alpha = roughness ** 2
+    wo, wi = walk.ball(LIGHT["position"], sphere_center(index), count, numpy.random.default_rng(1))
     ratios = []
     for f0 in color:
-        one = one_bounce(wo, wi, alpha, f0).sum()
-        ratios.append((one + walk(wo, alpha, f0, wi).sum())
-                      / (one + walk(wo, alpha, f0, wi, as_cycles=True).sum()))
+        one = walk.one_bounce(wo, wi, alpha, f0, walk.glass).sum()
+        more, as_cycles = (walk.walk(wo, alpha, f0, walk.glass, wi, known).sum()
+                           for known in (False, True))
+        ratios.append((one + more) / (one + as_cycles))
     return numpy.array(ratios)
 
 
@@ -353,7 +264,7 @@ def same_lobe(node, f0):
     """Principled's metal has any f0, and the curve of the index that `Specular` asks for."""
     node.inputs["Base Color"].default_value = *f0, 1
     node.inputs["Metallic"].default_value = 1
-    node.inputs["Specular"].default_value = ((INDEX - 1) / (INDEX + 1)) ** 2 / 0.08
+    node.inputs["Specular"].default_value = ((walk.INDEX - 1) / (walk.INDEX + 1)) ** 2 / 0.08
 
 
 def same_surface(color, metallic, roughness, specular, tree):
