@@ -15,12 +15,12 @@ typedef enum exit_code {
 
 typedef struct command {
     const char *name;
-    const char *operands;  // "FILE|demo:NAME"
-    const char *about;     // one line
-    const char *lesson;    // what `argand help NAME` says below the usage; may be NULL
-    option_tables options; // as in option_set
-    const char *more;      // what it says below the options; may be NULL
-    const char *examples;  // and last; may be NULL
+    const char *operands; // "FILE|demo:NAME"
+    const char *about;    // one line
+    const char *lesson;   // what `argand help NAME` says below the usage; may be NULL
+    option_tables options;
+    const char *more;                        // what it says below the options; may be NULL
+    const char *examples;                    // and last; may be NULL
     exit_code (*run)(int argc, char **argv); // arguments behind the command's name
 } command;
 

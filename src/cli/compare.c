@@ -188,8 +188,7 @@ static exit_code run(int argc, char **argv)
 {
     compare_request request = { .output = NULL };
     option_set set = {
-        .command = "compare",
-        .options = { options },
+        .command = &command_compare,
         .fields = &request,
         .operands = request.pictures,
         .operand_capacity = 2,

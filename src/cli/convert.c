@@ -40,8 +40,7 @@ static bool parse(shot_request *request, int argc, char **argv, bool *help)
 {
     *request = shot_request_default();
     option_set set = {
-        .command = "convert",
-        .options = { options, shot_scene_options },
+        .command = &command_convert,
         .fields = request,
         .operands = &request->input,
         .operand_capacity = 1,

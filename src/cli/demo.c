@@ -7,7 +7,7 @@
 
 static exit_code run(int argc, char **argv)
 {
-    option_set set = { .command = "demo" };
+    option_set set = { .command = &command_demo };
     if (!options_parse(&set, argc, argv))
         return EXIT_USAGE;
     if (set.help) {

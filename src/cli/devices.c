@@ -86,8 +86,7 @@ static exit_code run(int argc, char **argv)
 {
     devices_request request = { 0 };
     option_set set = {
-        .command = "devices",
-        .options = { options },
+        .command = &command_devices,
         .fields = &request,
     };
     if (!options_parse(&set, argc, argv))

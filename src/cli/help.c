@@ -59,7 +59,7 @@ static exit_code run(int argc, char **argv)
 {
     const char *name = NULL;
     option_set set = {
-        .command = "help",
+        .command = &command_help,
         .operands = &name,
         .operand_capacity = 1,
     };

@@ -217,8 +217,7 @@ static exit_code run(int argc, char **argv)
 {
     info_request request = { 0 };
     option_set set = {
-        .command = "info",
-        .options = { options },
+        .command = &command_info,
         .fields = &request,
         .operands = &request.input,
         .operand_capacity = 1,

@@ -2,6 +2,7 @@
 // behind which everything is an operand.
 #include "options.h"
 
+#include "commands.h"
 #include "text.h"
 
 #include <stdio.h>
@@ -21,7 +22,7 @@ static bool is_word(const char *word, const char *name, size_t length)
 
 static const option *find(const option_set *set, const char *name, size_t length)
 {
-    for (const option *const *table = set->options; *table; table++)
+    for (const option *const *table = set->command->options; *table; table++)
         for (const option *o = *table; o->name; o++)
             if (is_word(o->name, name, length) || is_word(o->letter, name, length))
                 return o;
@@ -32,18 +33,18 @@ static bool unknown(const option_set *set, const char *name, size_t length)
 {
     const char *names[MOST_OPTIONS];
     size_t count = 0;
-    for (const option *const *table = set->options; *table; table++)
+    for (const option *const *table = set->command->options; *table; table++)
         for (const option *o = *table; o->name && count < MOST_OPTIONS; o++)
             names[count++] = o->name;
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)length, name);
     const char *near = text_nearest(word, names, count);
     if (near)
-        fprintf(stderr, "argand: %s: there is no option '%s'; did you mean '%s'?\n", set->command,
-                word, near);
+        fprintf(stderr, "argand: %s: there is no option '%s'; did you mean '%s'?\n",
+                set->command->name, word, near);
     else
         fprintf(stderr, "argand: %s: there is no option '%s'; `argand help %s` lists them.\n",
-                set->command, word, set->command);
+                set->command->name, word, set->command->name);
     return false;
 }
 
@@ -134,7 +135,7 @@ static bool add_operand(option_set *set, const char *operand)
         return true;
     }
     fprintf(stderr, "argand: %s: '%s' is one argument too many; `argand help %s` tells more.\n",
-            set->command, operand, set->command);
+            set->command->name, operand, set->command->name);
     return false;
 }
 

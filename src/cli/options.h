@@ -32,10 +32,9 @@ typedef struct option {
 typedef const option *option_tables[6];
 
 typedef struct option_set {
-    const char *command; // for messages
-    option_tables options;
-    void *fields;          // where the offsets lead
-    const char **operands; // room for `operand_capacity` of them
+    const struct command *command; // whose options they are
+    void *fields;                  // where the offsets lead
+    const char **operands;         // room for `operand_capacity` of them
     size_t operand_capacity, operand_count;
     bool help; // --help or -h was given; the rest is not looked at then
 } option_set;

@@ -1,6 +1,7 @@
 // The options of `argand reference`: their table, and what must not stand together.
 #include "reference_options.h"
 
+#include "commands.h"
 #include "text.h"
 
 #include <stdio.h>
@@ -105,8 +106,7 @@ bool reference_request_parse(reference_request *r, int argc, char **argv, bool *
 {
     *r = (reference_request) { .shot = shot_request_default() };
     option_set set = {
-        .command = "reference",
-        .options = { reference_options, shot_scene_options, shot_options, eye_options },
+        .command = &command_reference,
         .fields = r,
         .operands = &r->shot.input,
         .operand_capacity = 1,

@@ -177,8 +177,7 @@ static bool parse(shot_request *request, int argc, char **argv, bool *help)
 {
     *request = shot_request_default();
     option_set set = {
-        .command = "render",
-        .options = { options, shot_scene_options, shot_options, eye_options, shot_device_options },
+        .command = &command_render,
         .fields = request,
         .operands = &request->input,
         .operand_capacity = 1,

@@ -69,8 +69,7 @@ static bool parse(validate_request *r, int argc, char **argv, bool *help)
 {
     *r = (validate_request) { .shot = shot_request_default() };
     option_set set = {
-        .command = "validate",
-        .options = { options, shot_scene_options, shot_options, eye_options, shot_device_options },
+        .command = &command_validate,
         .fields = r,
         .operands = r->inputs,
         .operand_capacity = SCENES_MOST,

@@ -74,9 +74,7 @@ static bool parse(view_request *request, int argc, char **argv, bool *help)
     *request = (view_request) { .shot = shot_request_default() };
     request->shot.size = (picture_size) { 1280, 720 };
     option_set set = {
-        .command = "view",
-        .options = { view_options, shot_scene_options, shot_options, eye_options,
-                     shot_device_options },
+        .command = &command_view,
         .fields = request,
         .operands = &request->shot.input,
         .operand_capacity = 1,
