@@ -418,10 +418,11 @@ static void begin(path *p, const path_scene *s, const ray *r, sampler dice, cons
     p->result = result;
 }
 
-// What a lane's ray meets first; `met` is NULL where that is no surface.
-static void see(bundle *b, const path_scene *s, const ray *r, sampler dice, const hit *met,
+// What a lane's ray meets first; `met` is NULL where that is no surface, and it shows the sky.
+static void see(bundle *b, const ray *r, sampler dice, const hit *met, const vec3 *sky,
                 path_result *result)
 {
+    const path_scene *s = b->scene;
     *result = (path_result) { .rays = 1 };
     if (s->lights.bodies && see_body(s, r, met, result))
         return;
@@ -430,21 +431,25 @@ static void see(bundle *b, const path_scene *s, const ray *r, sampler dice, cons
         begin(p, s, r, dice, met, result);
         b->count++;
     } else if (s->picture.background == AG_BACKGROUND_ENVIRONMENT) {
-        add_seen(s, result, sky_radiance(&s->sky, r->direction));
+        add_seen(s, result, *sky);
     }
 }
 
-static void start_packet(bundle *b, const path_scene *s, const eye_samples *samples, unsigned count,
+static void start_packet(bundle *b, const eye_samples *samples, unsigned count,
                          path_result *results)
 {
+    const path_scene *s = b->scene;
     ray_packet rays;
     hit hits[WORLD_PACKET];
+    vec3 sky[WORLD_PACKET];
     eye_rays(&s->view, samples, &rays);
     unsigned met = world_closest_packet(&s->world, &rays, count, hits);
+    if (met + 1 < 1u << count && s->picture.background == AG_BACKGROUND_ENVIRONMENT)
+        sky_behind(&s->sky, &rays, sky);
     for (unsigned i = 0; i < count; i++) {
         const ray r = world_ray(&rays, i);
-        see(b, s, &r, (sampler) { samples->index[i], samples->seed[i], 1 },
-            met >> i & 1 ? &hits[i] : NULL, &results[i]);
+        see(b, &r, (sampler) { samples->index[i], samples->seed[i], 1 },
+            met >> i & 1 ? &hits[i] : NULL, &sky[i], &results[i]);
     }
 }
 
@@ -465,14 +470,14 @@ static void start(bundle *b, const path_scene *s, const path_work *work, size_t 
             samples.index[lane] = work[i].from + k;
             samples.seed[lane] = seed;
             if (++lane == WORLD_PACKET) {
-                start_packet(b, s, &samples, lane, &results[done]);
+                start_packet(b, &samples, lane, &results[done]);
                 done += lane;
                 lane = 0;
             }
         }
     }
     if (lane)
-        start_packet(b, s, &samples, lane, &results[done]);
+        start_packet(b, &samples, lane, &results[done]);
 }
 
 // Take a step with all that live; those that end with it are left out from there.

@@ -5,6 +5,7 @@
 // lookups within it find, so that no light is without density.
 #include "trace/sky.h"
 
+#include "bake/wide.h"
 #include "base/log.h"
 #include "base/threads.h"
 #include "image/image.h"
@@ -337,12 +338,31 @@ float sky_irradiance(const trace_sky *s)
     return s->intensity * rows.sums[rows.count] * (0.5f * PI) / (float)s->image->width;
 }
 
-vec3 sky_radiance(const trace_sky *s, vec3 direction)
+// As uv_of(), of the directions as they are seen in the world.
+WIDE_INLINE void place_body(const trace_sky *s, const ray_packet *r, float *u, float *v)
 {
-    if (!s->image)
-        return vec3(0, 0, 0);
-    between texels = between_texels(s->image, uv_of(sky_from_world(s, direction)));
-    return s->intensity * read(&texels);
+    for (int i = 0; i < WORLD_PACKET; i++) {
+        float x = s->cosine * r->direction[0][i] - s->sine * r->direction[2][i];
+        float z = s->sine * r->direction[0][i] + s->cosine * r->direction[2][i];
+        u[i] = 0.5f + elementary_angle(z, x) * (0.5f * INV_PI);
+        v[i] = elementary_angle(sqrtf(x * x + z * z), r->direction[1][i]) * INV_PI;
+    }
+}
+
+WIDE_DISPATCH(place, (const trace_sky *s, const ray_packet *r, float *u, float *v), (s, r, u, v))
+
+void sky_behind(const trace_sky *s, const ray_packet *rays, vec3 radiance[WORLD_PACKET])
+{
+    float u[WORLD_PACKET], v[WORLD_PACKET];
+    if (s->image)
+        place(s, rays, u, v);
+    for (int i = 0; i < WORLD_PACKET; i++) {
+        radiance[i] = vec3(0, 0, 0);
+        if (s->image) {
+            between texels = between_texels(s->image, vec2(u[i], v[i]));
+            radiance[i] = s->intensity * read(&texels);
+        }
+    }
 }
 
 static int pixel_at(float share, int pixels)

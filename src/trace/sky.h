@@ -4,6 +4,7 @@
 
 #include "physics/lang.glsl"
 #include "scene/scene.h"
+#include "trace/world.h"
 
 // Running sums of one line of cells, and where to begin to look in them.
 enum { SKY_GUIDES = 128 };
@@ -42,7 +43,8 @@ typedef struct sky_look {
 // face.
 float sky_irradiance(const trace_sky *s);
 
-vec3 sky_radiance(const trace_sky *s, vec3 direction); // nit
+// What the directions of a packet show, nit.
+void sky_behind(const trace_sky *s, const ray_packet *rays, vec3 radiance[WORLD_PACKET]);
 
 // Of up to SKY_MANY directions at a time: what each reads is not near, and is waited for together.
 // Of a sky without an image nothing may be asked.
