@@ -12,10 +12,13 @@ typedef struct panorama {
     uint32_t tone;         // of display.glsl, or GPU_TONE_LINEAR
 } panorama;
 
-enum { PANORAMA_RUN = 8 };
+enum { PANORAMA_RUN = 64 };
 
-// The colours of PANORAMA_RUN pixels from (x, y) on to the right, which may lie beyond the
-// picture.  The surround has its texels, or none is present.
-void panorama_run(const panorama *b, uint32_t x, uint32_t y, float colors[][4]);
+// The colours of `count` pixels, PANORAMA_RUN at most, from (x, y) on to the right; or their
+// codes, of which `code` has one for each half float from 0 to 1.  What follows them in `out` up
+// to a multiple of eight is written, too.  The surround has its texels, or none is present.
+void panorama_colors(const panorama *p, uint32_t x, uint32_t y, uint32_t count, float out[][4]);
+void panorama_codes(const panorama *p, uint32_t x, uint32_t y, uint32_t count, const uint8_t *code,
+                    uint8_t out[][4]);
 
 #endif

@@ -11,6 +11,8 @@
 
 enum { CODES = 0x3c01 }; // half floats from 0 to 1
 
+static const uint32_t NOTHING = (uint32_t)RASTER_NONE; // as an id
+
 // ---- Pixels --------------------------------------------------------------------
 
 // The surfaces of one pixel.
@@ -34,6 +36,11 @@ static uint32_t *ids_of(const shade_list *l, uint32_t x, uint32_t y)
 static bool is_whole(const shade_list *l, const uint32_t *ids)
 {
     return l->samples == 1 || ((ids[0] ^ ids[1]) | (ids[0] ^ ids[2]) | (ids[0] ^ ids[3])) == 0;
+}
+
+static bool is_empty(const shade_list *l, const uint32_t *ids)
+{
+    return l->samples == 1 ? ids[0] == NOTHING : (ids[0] & ids[1] & ids[2] & ids[3]) == NOTHING;
 }
 
 static parts parts_of(const shade_list *l, const uint32_t *ids)
@@ -124,6 +131,8 @@ typedef struct count_job {
 
 static void count_pixel(const shade_list *l, uint32_t *ids, uint32_t *counts)
 {
+    if (is_empty(l, ids))
+        return;
     if (is_whole(l, ids)) {
         counts[source_of(l, ids[0])->list]++;
         return;
@@ -214,6 +223,8 @@ static void write_band(void *context, size_t band)
     for (uint32_t y = (uint32_t)band * RASTER_BAND; y < band_end(l, band); y++)
         for (uint32_t x = 0; x < l->width; x++) {
             const uint32_t *ids = ids_of(l, x, y);
+            if (is_empty(l, ids))
+                continue;
             parts p = { .id = { ids[0] }, .count = 1 };
             if (!is_whole(l, ids))
                 p = parts_of(l, ids);
@@ -236,6 +247,7 @@ void shade_list_write(const shade_list *l, gpu_listed *places)
 typedef struct mix_job {
     const shade_list *list;
     const shade_mix *mix;
+    bool direct;          // what is shaded is stored as it is
     uint8_t codes[CODES]; // sRGB, of half floats
 } mix_job;
 
@@ -283,12 +295,6 @@ static void add(float to[4], const float c[4], float weight)
         to[i] += weight * c[i];
 }
 
-static bool is_background(const mix_job *job, const shade_source *source)
-{
-    const shade_list *l = job->list;
-    return job->mix->background && source == &l->sources[l->source_count - 1];
-}
-
 // The mean of a pixel's surfaces; `cursors` move past what is read.
 static void mix_pixel(const mix_job *job, uint32_t x, uint32_t y, uint32_t *cursors, float sum[4])
 {
@@ -297,9 +303,9 @@ static void mix_pixel(const mix_job *job, uint32_t x, uint32_t y, uint32_t *curs
     for (int i = 0; i < p.count; i++) {
         const shade_source *source = source_of(l, p.id[i]);
         float weight = (float)p.weight[i] / (float)l->samples, color[4];
-        if (is_background(job, source)) {
-            float run[PANORAMA_RUN][4];
-            panorama_run(job->mix->background, x, y, run);
+        if (job->mix->background && p.id[i] == NOTHING) {
+            float run[8][4];
+            panorama_colors(job->mix->background, x, y, 1, run);
             add(sum, run[0], weight);
             continue;
         }
@@ -314,34 +320,45 @@ static void mix_pixel(const mix_job *job, uint32_t x, uint32_t y, uint32_t *curs
     }
 }
 
-// The background from x on, as far as nothing else is seen: how many pixels.
-static uint32_t mix_background(const mix_job *job, uint32_t x, uint32_t y)
+// How many pixels from x on show nothing, PANORAMA_RUN at most.
+static uint32_t count_empty(const shade_list *l, uint32_t x, uint32_t y)
 {
-    const shade_list *l = job->list;
-    float run[PANORAMA_RUN][4];
-    uint32_t count = 0;
-    panorama_run(job->mix->background, x, y, run);
-    do {
-        finish_pixel(job, run[count], (size_t)y * l->width + x + count);
+    uint32_t count = 0, most = l->width - x < PANORAMA_RUN ? l->width - x : PANORAMA_RUN;
+    while (count < most && is_empty(l, ids_of(l, x + count, y)))
         count++;
-    } while (count < PANORAMA_RUN && x + count < l->width && is_whole(l, ids_of(l, x + count, y)) &&
-             is_background(job, source_of(l, *ids_of(l, x + count, y))));
     return count;
+}
+
+static void mix_background(const mix_job *job, uint32_t x, uint32_t y, uint32_t count)
+{
+    const shade_mix *mix = job->mix;
+    size_t at = (size_t)y * job->list->width + x;
+    if (job->direct) {
+        uint8_t run[PANORAMA_RUN][4];
+        panorama_codes(mix->background, x, y, count, job->codes, run);
+        memcpy((uint8_t *)mix->pixels + at * 4, run, count * sizeof *run);
+        return;
+    }
+    float run[PANORAMA_RUN][4];
+    panorama_colors(mix->background, x, y, count, run);
+    for (uint32_t i = 0; i < count; i++)
+        finish_pixel(job, run[i], at + i);
 }
 
 static void mix_row(const mix_job *job, uint32_t y, uint32_t *cursors)
 {
     const shade_list *l = job->list;
     const shade_mix *mix = job->mix;
-    bool direct = mix->format == AG_FORMAT_RGBA8 && mix->tone == GPU_TONE_LINEAR && !mix->sum;
     size_t texel = mix->format == AG_FORMAT_RGBA8 ? 4 : 16;
     const shade_source *before = NULL; // that alone gave the pixel before, known beforehand
     for (uint32_t x = 0; x < l->width; x++) {
         const uint32_t *ids = ids_of(l, x, y);
         size_t at = (size_t)y * l->width + x;
         const shade_source *source = is_whole(l, ids) ? source_of(l, ids[0]) : NULL;
-        if (source && is_background(job, source)) {
-            x += mix_background(job, x, y) - 1;
+        uint32_t empty = mix->background ? count_empty(l, x, y) : 0;
+        if (empty) {
+            mix_background(job, x, y, empty);
+            x += empty - 1;
             continue;
         }
         if (source && source == before) {
@@ -350,7 +367,7 @@ static void mix_row(const mix_job *job, uint32_t y, uint32_t *cursors)
         }
         bool listed = source && source->list < l->list_count;
         before = listed || mix->sum ? NULL : source;
-        if (direct && listed) {
+        if (job->direct && listed) {
             const uint16_t *half = mix->colors[cursors[source->list]++];
             const uint8_t code[4] = { code_of(job, half[0]), code_of(job, half[1]),
                                       code_of(job, half[2]), 255 };
@@ -376,6 +393,7 @@ static void mix_band(void *context, size_t band)
 void shade_list_mix(const shade_list *l, const shade_mix *mix)
 {
     mix_job job = { .list = l, .mix = mix };
+    job.direct = mix->format == AG_FORMAT_RGBA8 && mix->tone == GPU_TONE_LINEAR && !mix->sum;
     srgb_encoder encoder;
     srgb_encoder_init(&encoder);
     for (uint32_t i = 0; i < CODES; i++)

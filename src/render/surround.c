@@ -57,16 +57,23 @@ static ag_status upload_irradiance(gpu_device *device, gpu_upload *upload,
     return upload_levels(device, upload, &desc, 8, (const char *)baked->cube + offset, cube);
 }
 
-// The picture itself as half floats.
 static ag_status keep_texels(gpu_device *device, const ag_image *equirect, surround *s)
 {
-    size_t values = (size_t)equirect->width * equirect->height * 4;
-    s->texels = malloc(values * sizeof(uint16_t));
+    uint32_t width = equirect->width, height = equirect->height;
+    size_t pitch = surround_pitch(width);
+    s->texels = malloc(pitch * (height + 1ul) * sizeof *s->texels);
     if (!s->texels)
         return log_fail(&device->log, AG_ERROR_MEMORY, "no memory for the environment");
-    s->width = equirect->width;
-    s->height = equirect->height;
-    half_from_floats_clamped(equirect->pixels, s->texels[0], values);
+    const float(*pixels)[4] = equirect->pixels;
+    for (uint32_t y = 0; y <= height; y++) {
+        uint16_t(*row)[4] = s->texels + y * pitch;
+        size_t from = (size_t)(y < height ? y : height - 1) * width;
+        half_from_floats_clamped(pixels[from], row[1], width * 4ul);
+        memcpy(row[0], row[width], sizeof *row);
+        memcpy(row[width + 1], row[1], sizeof *row);
+    }
+    s->width = width;
+    s->height = height;
     return AG_OK;
 }
 
@@ -80,12 +87,14 @@ static ag_status upload_image(gpu_device *device, gpu_upload *upload, const ag_i
         return log_fail(&device->log, AG_ERROR_UNSUPPORTED,
                         "an environment of %ux%u pixels is more than the %u of %s", equirect->width,
                         equirect->height, device->info.max_size, device->info.name);
-    surround kept = { 0 };
-    ag_status status = keep_texels(device, equirect, &kept);
+    size_t values = (size_t)equirect->width * equirect->height * 4;
+    uint16_t *halves = malloc(values * sizeof *halves);
+    if (!halves)
+        return log_fail(&device->log, AG_ERROR_MEMORY, "no memory for the environment");
+    half_from_floats_clamped(equirect->pixels, halves, values);
     gpu_image_destroy(device, &s->image);
-    if (!status)
-        status = upload_levels(device, upload, &desc, 8, kept.texels, &s->image);
-    free(kept.texels);
+    ag_status status = upload_levels(device, upload, &desc, 8, halves, &s->image);
+    free(halves);
     s->has_image = status == AG_OK;
     return status;
 }

@@ -20,12 +20,19 @@ typedef struct surround {
     gpu_image irradiance;   // cube of irradiance / pi
     gpu_image image;        // equirectangular; a stand-in until it is needed
     bool has_image;         // the image is the real one
-    uint16_t (*texels)[4];  // half floats of the same; NULL until they are needed
-    uint32_t width, height; // of them
+    uint32_t width, height; // of the environment
+    // The same as half floats, rows surround_pitch(width) apart, of which the first texel is the
+    // last one again and the last the first one; one row more, as the last.  NULL until needed.
+    uint16_t (*texels)[4];
     gpu_image dfg;
     gpu_image ltc;
     float sh[9][3];
 } surround;
+
+static inline size_t surround_pitch(uint32_t width)
+{
+    return width + 2ul;
+}
 
 // `equirect` NULL: none.
 // On failure what is half made stays for surround_destroy, after the upload is finished: the

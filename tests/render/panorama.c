@@ -81,13 +81,13 @@ static void the_image_is_where_it_belongs(void **state)
         for (uint32_t y = 0; y < N; y++)
             for (uint32_t x = 0; x < N; x++) {
                 float run[PANORAMA_RUN][4];
-                panorama_run(&p, x / PANORAMA_RUN * PANORAMA_RUN, y, run);
+                panorama_colors(&p, x / 8 * 8, y, 8, run);
                 double d[3];
                 d[a] = (double)axes[0][a];
                 d[b] = (x + 0.5) * 2 / N - 1;
                 d[c] = (y + 0.5) * 2 / N - 1;
                 double blue = expected(texels, d, 2), red = expected(texels, d, 0) + blue / 2;
-                const float *color = run[x % PANORAMA_RUN];
+                const float *color = run[x % 8];
                 assert_true(fabs((double)color[0] - red) < 1e-3);
                 assert_true(fabs((double)color[1] - expected(texels, d, 1)) < 1e-3);
                 assert_true(fabs((double)color[2] - blue) < 1e-3);
@@ -116,7 +116,7 @@ static void suns_are_as_large_as_they_should_be(void **state)
     for (uint32_t y = 0; y < N; y++)
         for (uint32_t x = 0; x < N; x += PANORAMA_RUN) {
             float run[PANORAMA_RUN][4];
-            panorama_run(&p, x, y, run);
+            panorama_colors(&p, x, y, PANORAMA_RUN, run);
             for (uint32_t i = 0; i < PANORAMA_RUN; i++) {
                 double at_x = 0.2 * ((x + i + 0.5) * 2 / N - 1),
                        at_y = 0.2 * ((y + 0.5) * 2 / N - 1);
@@ -141,7 +141,7 @@ static void looking_along_one_line_all_is_alike(void **state)
     const panorama p = { .surround = &s, .frame = &frame, .tone = GPU_TONE_LINEAR };
     const double d[3] = { 0.6, -0.48, 0.64 };
     float run[PANORAMA_RUN][4];
-    panorama_run(&p, 8, 3, run);
+    panorama_colors(&p, 8, 3, PANORAMA_RUN, run);
     for (uint32_t i = 0; i < PANORAMA_RUN; i++)
         assert_true(fabs((double)run[i][1] - expected(texels, d, 1)) < 1e-3);
 }
