@@ -19,20 +19,23 @@ unsigned threads_available(void)
 
 typedef struct work {
     atomic_size_t next;
+    atomic_uint workers;
     size_t count;
-    void (*task)(void *context, size_t index);
+    void (*task)(void *context, size_t index, unsigned worker);
     void *context;
 } work;
 
 static void *run(void *argument)
 {
     work *w = argument;
+    unsigned worker = atomic_fetch_add(&w->workers, 1);
     for (size_t i; (i = atomic_fetch_add(&w->next, 1)) < w->count;)
-        w->task(w->context, i);
+        w->task(w->context, i, worker);
     return NULL;
 }
 
-void parallel_for(size_t count, void (*task)(void *context, size_t index), void *context)
+void parallel_for_workers(size_t count, void (*task)(void *context, size_t index, unsigned worker),
+                          void *context)
 {
     work w = { .count = count, .task = task, .context = context };
     pthread_t threads[THREADS_MAX];
@@ -44,4 +47,22 @@ void parallel_for(size_t count, void (*task)(void *context, size_t index), void 
     run(&w);
     for (unsigned i = 0; i < made; i++)
         pthread_join(threads[i], NULL);
+}
+
+typedef struct plain_task {
+    void (*task)(void *context, size_t index);
+    void *context;
+} plain_task;
+
+static void run_plain(void *context, size_t index, unsigned worker)
+{
+    (void)worker;
+    plain_task *plain = context;
+    plain->task(plain->context, index);
+}
+
+void parallel_for(size_t count, void (*task)(void *context, size_t index), void *context)
+{
+    plain_task plain = { task, context };
+    parallel_for_workers(count, run_plain, &plain);
 }

@@ -13,4 +13,8 @@ unsigned threads_available(void);
 // caller does all of it.
 void parallel_for(size_t count, void (*task)(void *context, size_t index), void *context);
 
+// The same; `worker` is below threads_available(), and no two tasks run with one at a time.
+void parallel_for_workers(size_t count, void (*task)(void *context, size_t index, unsigned worker),
+                          void *context);
+
 #endif

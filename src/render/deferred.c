@@ -194,21 +194,19 @@ static raster_object *add_bodies(const ag_renderer *r, const picture *p, const g
 }
 
 // List what this frame shows.
-static ag_status see(ag_renderer *r, const picture *p, shade_list *list)
+static ag_status see(ag_renderer *r, const picture *p)
 {
     const targets_desc *desc = &r->targets.desc;
     visibility *v = &r->visibility;
     raster_object *end = add_instances(r, p, r->frame.memory.mapped, v->objects);
     end = add_bodies(r, p, r->frame.memory.mapped, end);
-    *list = (shade_list) { .triangle_bits = v->triangle_bits,
-                           .sources = v->sources,
-                           .source_count = source_count(r, p),
-                           .list_count = list_count(p) };
-    raster drawn;
-    bool seen = raster_begin(&drawn, desc->width, desc->height, desc->samples, v->objects,
+    v->list.triangle_bits = v->triangle_bits;
+    v->list.sources = v->sources;
+    v->list.source_count = source_count(r, p);
+    v->list.list_count = list_count(p);
+    bool seen = raster_begin(&v->raster, desc->width, desc->height, desc->samples, v->objects,
                              (size_t)(end - v->objects)) &&
-                shade_list_count(list, &drawn);
-    raster_finish(&drawn);
+                shade_list_count(&v->list, &v->raster);
     return seen ? AG_OK
                 : log_fail(&r->device->log, AG_ERROR_MEMORY, "no memory for %llu triangles",
                            (unsigned long long)p->draws.triangles);
@@ -296,8 +294,9 @@ ag_status deferred_warm_up(ag_renderer *r, const picture *p)
     return status ? status : run(r);
 }
 
-static ag_status shade(ag_renderer *r, const picture *p, const shade_list *list)
+static ag_status shade(ag_renderer *r, const picture *p)
 {
+    const shade_list *list = &r->visibility.list;
     ag_status status = bind_places(r, list->firsts[list->list_count]);
     if (!status)
         status = gpu_commands_begin(r->device, &r->commands);
@@ -308,8 +307,7 @@ static ag_status shade(ag_renderer *r, const picture *p, const shade_list *list)
     return status ? status : run(r);
 }
 
-static void mix_colors(const ag_renderer *r, const picture *p, uint32_t index,
-                       const shade_list *list)
+static void mix_colors(const ag_renderer *r, const picture *p, uint32_t index)
 {
     const float4 under = frame_backdrop(p);
     const panorama behind = { .surround = &r->resident.surround,
@@ -328,7 +326,7 @@ static void mix_colors(const ag_renderer *r, const picture *p, uint32_t index,
         .format = p->options->format,
         .pixels = r->targets.pixels.memory.mapped,
     };
-    shade_list_mix(list, &how);
+    shade_list_mix(&r->visibility.list, &how);
 }
 
 // The finished tile into the image that is shown.
@@ -343,13 +341,11 @@ static ag_status hand_over(ag_renderer *r, const picture *p, view_rect tile)
 
 ag_status deferred_draw(ag_renderer *r, const picture *p, view_rect tile, uint32_t index)
 {
-    shade_list list;
-    ag_status status = see(r, p, &list);
+    ag_status status = see(r, p);
     if (!status)
-        status = shade(r, p, &list);
+        status = shade(r, p);
     if (!status)
-        mix_colors(r, p, index, &list);
-    shade_list_finish(&list);
+        mix_colors(r, p, index);
     if (!status && p->into && index + 1 == p->frames)
         status = hand_over(r, p, tile);
     return status;

@@ -20,19 +20,23 @@ typedef struct triangle {
 } triangle;
 
 // Part of an object.
-typedef struct part {
+typedef struct raster_part {
     const raster_object *object;
     uint32_t first, count; // triangles
-} part;
+} raster_part;
 
 // Neighbours in drawing order, CHUNK triangles or one part.
 typedef struct raster_chunk {
-    part *parts; // of a common array, which the first chunk owns
+    const raster_part *parts; // of the raster's
     size_t part_count;
     triangle *triangles;
     size_t count, capacity;
     uint32_t *order; // of triangles, band after band
+    size_t order_capacity;
     uint32_t *bands; // [bands + 1]: where a band starts in `order`
+    size_t bands_capacity;
+    struct projected *vertices; // of a part
+    size_t vertices_capacity;
 } raster_chunk;
 
 typedef struct begin_job {
@@ -114,7 +118,7 @@ static bool add_cut(const raster *r, raster_chunk *c, const raster_object *o, ui
            (count < 4 || add(r, c, o, id, &kept[0], &kept[2], &kept[3]));
 }
 
-static void index_range(const part *p, uint32_t *first, uint32_t *last)
+static void index_range(const raster_part *p, uint32_t *first, uint32_t *last)
 {
     const uint32_t *indices = p->object->indices + 3ul * p->first;
     *first = UINT32_MAX;
@@ -126,30 +130,30 @@ static void index_range(const part *p, uint32_t *first, uint32_t *last)
 }
 
 // The vertices of a part; indices count from *first.
-static projected *project_part(const raster *r, const part *p, uint32_t *first)
+static bool project_part(const raster *r, raster_chunk *c, const raster_part *p, uint32_t *first)
 {
     uint32_t last;
     index_range(p, first, &last);
     const raster_object *o = p->object;
-    projected *out = malloc((last - *first + 1ul) * sizeof *out);
-    if (!out)
-        return NULL;
+    if (!array_reserve(&c->vertices, &c->vertices_capacity, last - *first + 1ul,
+                       sizeof *c->vertices))
+        return false;
     vec4 column[4];
     for (int i = 0; i < 4; i++)
         column[i] = vec4(o->clip[i][0], o->clip[i][1], o->clip[i][2], o->clip[i][3]);
     for (uint32_t i = *first; i <= last; i++) {
         const float *v = (const float *)(const void *)((const char *)o->positions + i * o->stride);
-        out[i - *first] =
+        c->vertices[i - *first] =
             project(r, column[0] * v[0] + column[1] * v[1] + column[2] * v[2] + column[3]);
     }
-    return out;
+    return true;
 }
 
-static bool add_part(const raster *r, raster_chunk *c, const part *p)
+static bool add_part(const raster *r, raster_chunk *c, const raster_part *p)
 {
     uint32_t base;
-    projected *vertices = project_part(r, p, &base);
-    bool ok = vertices;
+    bool ok = project_part(r, c, p, &base);
+    const projected *vertices = c->vertices;
     for (uint32_t i = p->first; i < p->first + p->count && ok; i++) {
         const uint32_t *corner = p->object->indices + 3ul * i;
         const projected *const v[3] = { vertices + (corner[0] - base),
@@ -161,7 +165,6 @@ static bool add_part(const raster *r, raster_chunk *c, const part *p)
         else
             ok = add_cut(r, c, p->object, id, v);
     }
-    free(vertices);
     return ok;
 }
 
@@ -176,8 +179,7 @@ static bool sort_bands(const raster *r, raster_chunk *c)
         c->bands[band] = at;
         at += count;
     }
-    c->order = malloc((at ? at : 1) * sizeof *c->order);
-    if (!c->order)
+    if (!array_reserve(&c->order, &c->order_capacity, at, sizeof *c->order))
         return false;
     for (size_t i = 0; i < c->count; i++) {
         int first, last;
@@ -196,12 +198,27 @@ static void begin_chunk(void *context, size_t index)
     begin_job *job = context;
     const raster *r = job->raster;
     raster_chunk *c = &r->chunks[index];
-    c->bands = calloc(r->bands + 1, sizeof *c->bands);
-    bool ok = c->bands;
+    bool ok = array_reserve(&c->bands, &c->bands_capacity, r->bands + 1ul, sizeof *c->bands);
+    if (ok)
+        memset(c->bands, 0, (r->bands + 1ul) * sizeof *c->bands);
     for (size_t i = 0; i < c->part_count && ok; i++)
         ok = add_part(r, c, &c->parts[i]);
     if (!ok || !sort_bands(r, c))
         atomic_store(&job->failed, true);
+}
+
+// Room for `most` chunks of as many parts, and none in use.
+static bool reserve_chunks(raster *r, size_t most)
+{
+    size_t before = r->chunk_capacity;
+    if (!array_reserve(&r->parts, &r->part_capacity, most, sizeof *r->parts) ||
+        !array_reserve(&r->chunks, &r->chunk_capacity, most, sizeof *r->chunks))
+        return false;
+    memset(r->chunks + before, 0, (r->chunk_capacity - before) * sizeof *r->chunks);
+    for (size_t i = 0; i < r->chunk_capacity; i++)
+        r->chunks[i].part_count = r->chunks[i].count = 0;
+    r->chunk_count = 0;
+    return true;
 }
 
 // Objects in pieces of CHUNK triangles, gathered until they are as many.
@@ -210,14 +227,10 @@ static bool make_chunks(raster *r, const raster_object *objects, size_t count)
     size_t most = 0;
     for (size_t i = 0; i < count; i++)
         most += objects[i].triangle_count / CHUNK + 1;
-    part *parts = malloc((most ? most : 1) * sizeof *parts);
-    r->chunks = calloc(most ? most : 1, sizeof *r->chunks);
-    if (!parts || !r->chunks) {
-        free(parts);
+    if (!reserve_chunks(r, most))
         return false;
-    }
+    raster_part *parts = r->parts;
     uint32_t filled = CHUNK;
-    r->chunks[0].parts = parts;
     for (size_t i = 0; i < count; i++)
         for (uint32_t first = 0; first < objects[i].triangle_count; first += CHUNK) {
             uint32_t left = objects[i].triangle_count - first, n = left < CHUNK ? left : CHUNK;
@@ -225,7 +238,7 @@ static bool make_chunks(raster *r, const raster_object *objects, size_t count)
                 r->chunks[r->chunk_count++].parts = parts;
                 filled = 0;
             }
-            *parts++ = (part) { &objects[i], first, n };
+            *parts++ = (raster_part) { &objects[i], first, n };
             r->chunks[r->chunk_count - 1].part_count++;
             filled += n;
         }
@@ -235,10 +248,14 @@ static bool make_chunks(raster *r, const raster_object *objects, size_t count)
 bool raster_begin(raster *r, uint32_t width, uint32_t height, uint32_t samples,
                   const raster_object *objects, size_t count)
 {
-    *r = (raster) { .width = width, .height = height, .samples = samples };
+    r->width = width;
+    r->height = height;
+    r->samples = samples;
     r->pitch = (width * samples + LANES - 1) / LANES * LANES;
     r->bands = (height + RASTER_BAND - 1) / RASTER_BAND;
-    if (!make_chunks(r, objects, count))
+    if (!array_reserve(&r->depth, &r->depth_capacity,
+                       (size_t)threads_available() * RASTER_BAND * r->pitch, sizeof *r->depth) ||
+        !make_chunks(r, objects, count))
         return false;
     begin_job job = { .raster = r };
     parallel_for(r->chunk_count, begin_chunk, &job);
@@ -247,14 +264,15 @@ bool raster_begin(raster *r, uint32_t width, uint32_t height, uint32_t samples,
 
 void raster_finish(raster *r)
 {
-    if (r->chunks)
-        free(r->chunks[0].parts);
-    for (size_t i = 0; i < r->chunk_count; i++) {
+    for (size_t i = 0; i < r->chunk_capacity; i++) {
         free(r->chunks[i].triangles);
         free(r->chunks[i].order);
         free(r->chunks[i].bands);
+        free(r->chunks[i].vertices);
     }
     free(r->chunks);
+    free(r->parts);
+    free(r->depth);
     *r = (raster) { 0 };
 }
 
@@ -385,14 +403,15 @@ static void draw(const canvas *c, const triangle *t)
     }
 }
 
-bool raster_band(const raster *r, uint32_t band, uint32_t *ids)
+void raster_band(const raster *r, uint32_t band, unsigned worker, uint32_t *ids)
 {
     uint32_t first = band * RASTER_BAND, end = first + RASTER_BAND;
     end = end < r->height ? end : r->height;
     size_t count = (size_t)(end - first) * r->pitch;
+    float *depth = r->depth + (size_t)worker * RASTER_BAND * r->pitch;
     canvas c = {
         .ids = (lanes_int *)(void *)ids,
-        .depth = calloc(count, sizeof(float)),
+        .depth = (lanes *)(void *)depth,
         .first_row = (int)first,
         .end_row = (int)end,
         .cells = (int)(r->pitch / LANES),
@@ -404,14 +423,11 @@ bool raster_band(const raster *r, uint32_t band, uint32_t *ids)
         c.x = (lanes_double) { 0.5, 1.5, 2.5, 3.5 };
         c.y = (lanes_double) { 0.5, 0.5, 0.5, 0.5 };
     }
-    if (!c.depth)
-        return false;
+    memset(depth, 0, count * sizeof *depth);
     memset(ids, 0xff, count * sizeof *ids); // RASTER_NONE
     for (size_t i = 0; i < r->chunk_count; i++) {
         const raster_chunk *chunk = &r->chunks[i];
         for (uint32_t k = chunk->bands[band]; k < chunk->bands[band + 1]; k++)
             draw(&c, &chunk->triangles[chunk->order[k]]);
     }
-    free(c.depth);
-    return true;
 }

@@ -33,17 +33,22 @@ typedef struct raster {
     uint32_t samples;              // of a pixel, 1 or 4
     uint32_t pitch;                // samples from a row to the next one: rows are full fours
     struct raster_chunk *chunks;   // in drawing order
-    size_t chunk_count;
+    size_t chunk_count, chunk_capacity;
+    struct raster_part *parts; // of all chunks
+    size_t part_capacity;
+    float *depth; // of a band, for each worker
+    size_t depth_capacity;
 } raster;
 
-// Project, clip and sort the triangles of a picture.  On all cores.  False: no memory.
+// Project, clip and sort the triangles of a picture.  On all cores.  False: no memory.  What was
+// allocated for a picture before (or zero) is used again.
 AG_CHECK bool raster_begin(raster *r, uint32_t width, uint32_t height, uint32_t samples,
                            const raster_object *objects, size_t count);
 void raster_finish(raster *r); // zero is allowed
 
 // Draw one band: the ids of the samples of the pixels of its rows, rows r->pitch apart.  Nearer
-// ones win, among equals later ones; depth is 1 at the near plane and 0 at the far one.  False:
-// no memory.  `ids` is aligned to 16 bytes.
-AG_CHECK bool raster_band(const raster *r, uint32_t band, uint32_t *ids);
+// ones win, among equals later ones; depth is 1 at the near plane and 0 at the far one.  `ids` is
+// aligned to 16 bytes; `worker` as of parallel_for_workers().
+void raster_band(const raster *r, uint32_t band, unsigned worker, uint32_t *ids);
 
 #endif

@@ -1,12 +1,12 @@
 // What of a picture is to be shaded: each surface once in each pixel that shows it.
 #include "render/shade_list.h"
 
+#include "base/array.h"
 #include "base/threads.h"
 #include "image/half.h"
 #include "image/srgb.h"
 #include "physics/display.glsl"
 
-#include <stdatomic.h>
 #include <stdlib.h>
 
 enum { CODES = 0x3c01 }; // half floats from 0 to 1
@@ -126,7 +126,6 @@ static uint32_t band_end(const shade_list *l, size_t band)
 typedef struct count_job {
     shade_list *list;
     const raster *raster;
-    atomic_bool failed;
 } count_job;
 
 static void count_pixel(const shade_list *l, uint32_t *ids, uint32_t *counts)
@@ -142,13 +141,12 @@ static void count_pixel(const shade_list *l, uint32_t *ids, uint32_t *counts)
         counts[source_of(l, p.id[i])->list]++;
 }
 
-static void count_band(void *context, size_t band)
+static void count_band(void *context, size_t band, unsigned worker)
 {
     count_job *job = context;
     const shade_list *l = job->list;
     uint32_t first = (uint32_t)band * RASTER_BAND;
-    if (!raster_band(job->raster, (uint32_t)band, ids_of(l, 0, first)))
-        atomic_store(&job->failed, true);
+    raster_band(job->raster, (uint32_t)band, worker, ids_of(l, 0, first));
     for (uint32_t y = first; y < band_end(l, band); y++)
         for (uint32_t x = 0; x < l->width; x++)
             count_pixel(l, ids_of(l, x, y), cursors_of(l, band));
@@ -171,11 +169,13 @@ static void place_lists(shade_list *l)
 
 static bool allocate(shade_list *l)
 {
-    size_t columns = l->list_count + 1;
-    l->ids = malloc(l->height * l->pitch * sizeof *l->ids);
-    l->cursors = calloc(l->bands * columns, sizeof *l->cursors);
-    l->firsts = calloc(columns, sizeof *l->firsts);
-    return l->ids && l->cursors && l->firsts;
+    size_t columns = l->list_count + 1, cursors = l->bands * columns;
+    if (!array_reserve(&l->ids, &l->ids_capacity, l->height * l->pitch, sizeof *l->ids) ||
+        !array_reserve(&l->cursors, &l->cursors_capacity, cursors, sizeof *l->cursors) ||
+        !array_reserve(&l->firsts, &l->firsts_capacity, columns, sizeof *l->firsts))
+        return false;
+    memset(l->cursors, 0, cursors * sizeof *l->cursors);
+    return true;
 }
 
 bool shade_list_count(shade_list *l, const raster *r)
@@ -188,9 +188,9 @@ bool shade_list_count(shade_list *l, const raster *r)
     if (!allocate(l))
         return false;
     count_job job = { .list = l, .raster = r };
-    parallel_for(l->bands, count_band, &job);
+    parallel_for_workers(l->bands, count_band, &job);
     place_lists(l);
-    return !atomic_load(&job.failed);
+    return true;
 }
 
 void shade_list_finish(shade_list *l)

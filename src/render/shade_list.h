@@ -35,9 +35,11 @@ typedef struct shade_list {
     uint32_t *ids;     // [height][pitch], of the samples of pixels; of one surface equal
     uint32_t *cursors; // [bands][list_count + 1]: where each band's part of a list is
     uint32_t *firsts;  // [list_count + 1]: where each list starts; the last one: how many places
+    size_t ids_capacity, cursors_capacity, firsts_capacity;
 } shade_list;
 
-// Draw the raster, find the surfaces in each pixel and count them.  False: no memory.
+// Draw the raster, find the surfaces in each pixel and count them.  False: no memory.  What was
+// allocated for a list before (or zero) is used again.
 AG_CHECK bool shade_list_count(shade_list *list, const raster *r);
 void shade_list_finish(shade_list *list); // zero is allowed
 

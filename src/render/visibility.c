@@ -31,6 +31,8 @@ void visibility_destroy(gpu_device *device, visibility *v)
     gpu_buffer_destroy(device, &v->places);
     gpu_buffer_destroy(device, &v->colors);
     free_memory(v);
+    raster_finish(&v->raster);
+    shade_list_finish(&v->list);
     *v = (visibility) { 0 };
 }
 

@@ -15,6 +15,8 @@ typedef struct visibility {
     raster_object *objects;          // as many
     float (*bodies)[BODY_POINTS][3]; // of lights that have one
     float (*sum)[4];                 // of frames; NULL where there is one
+    raster raster;                   // these two for what they allocate
+    shade_list list;
 } visibility;
 
 void visibility_destroy(gpu_device *device, visibility *v); // zero is allowed

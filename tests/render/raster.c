@@ -39,12 +39,12 @@ static raster_object object_of(const float (*corners)[3], const uint32_t *indice
 // The ids of all samples, rows without gaps.
 static uint32_t *draw(uint32_t samples, const raster_object *objects, size_t count)
 {
-    raster r;
+    raster r = { 0 };
     assert_true(raster_begin(&r, W, H, samples, objects, count));
     uint32_t *padded = malloc((size_t)r.pitch * r.bands * RASTER_BAND * 4);
     uint32_t *ids = malloc((size_t)W * H * samples * 4);
     for (uint32_t band = 0; band < r.bands; band++)
-        assert_true(raster_band(&r, band, padded + (size_t)band * RASTER_BAND * r.pitch));
+        raster_band(&r, band, 0, padded + (size_t)band * RASTER_BAND * r.pitch);
     for (uint32_t y = 0; y < H; y++)
         memcpy(ids + (size_t)y * W * samples, padded + (size_t)y * r.pitch, W * samples * 4);
     raster_finish(&r);
