@@ -54,7 +54,8 @@ WIDE_INLINE taps taps_at(const surround *s, f32x8 dx, f32x8 dy, f32x8 dz)
     f32x8 u = wide_atan2(dz, dx) * (0.5f * INV_PI) + 0.5f;
     f32x8 v = wide_atan2(wide_sqrt(dx * dx + dz * dz), dy) * INV_PI;
     taps t;
-    t.right = wide_fraction(wide_min(wide_max(u * width + 0.5f, zero), zero + width), &t.x);
+    t.right =
+        wide_fraction(wide_min(wide_max(u * width + 0.5f, zero), zero + (width + 0.75f)), &t.x);
     t.lower = wide_fraction(wide_min(wide_max(v * height - 0.5f, zero), zero + (height - 1)), &t.y);
     return t;
 }

@@ -11,6 +11,9 @@
 
 enum { CODES = 0x3c01 }; // half floats from 0 to 1
 
+// Places are listed tile by tile, so that neighbours find each other's texels in the cache.
+enum { TILE = 32 }; // px across; as high as a band
+
 static const uint32_t NOTHING = (uint32_t)RASTER_NONE; // as an id
 
 // ---- Pixels --------------------------------------------------------------------
@@ -123,6 +126,11 @@ static uint32_t band_end(const shade_list *l, size_t band)
     return end < l->height ? end : l->height;
 }
 
+static uint32_t tile_end(const shade_list *l, uint32_t x)
+{
+    return x + TILE < l->width ? x + TILE : l->width;
+}
+
 typedef struct count_job {
     shade_list *list;
     const raster *raster;
@@ -214,26 +222,35 @@ static gpu_listed place_of(const shade_list *l, uint32_t id, uint32_t pixel)
                           source->first_index + 3 * triangle, source->first_vertex };
 }
 
+// Lists the places of a row's pixels [from, to); cursors move on.
+static void write_row(const write_job *job, uint32_t y, uint32_t from, uint32_t to,
+                      uint32_t *cursors)
+{
+    const shade_list *l = job->list;
+    for (uint32_t x = from; x < to; x++) {
+        const uint32_t *ids = ids_of(l, x, y);
+        if (is_empty(l, ids))
+            continue;
+        parts p = { .id = { ids[0] }, .count = 1 };
+        if (!is_whole(l, ids))
+            p = parts_of(l, ids);
+        for (int i = 0; i < p.count; i++) {
+            uint32_t list = source_of(l, p.id[i])->list;
+            if (list < l->list_count)
+                job->places[cursors[list]++] = place_of(l, p.id[i], x | y << 16);
+        }
+    }
+}
+
 static void write_band(void *context, size_t band)
 {
     const write_job *job = context;
     const shade_list *l = job->list;
     uint32_t cursors[SHADE_LISTS_MAX + 1];
     memcpy(cursors, cursors_of(l, band), (l->list_count + 1) * sizeof *cursors);
-    for (uint32_t y = (uint32_t)band * RASTER_BAND; y < band_end(l, band); y++)
-        for (uint32_t x = 0; x < l->width; x++) {
-            const uint32_t *ids = ids_of(l, x, y);
-            if (is_empty(l, ids))
-                continue;
-            parts p = { .id = { ids[0] }, .count = 1 };
-            if (!is_whole(l, ids))
-                p = parts_of(l, ids);
-            for (int i = 0; i < p.count; i++) {
-                uint32_t list = source_of(l, p.id[i])->list;
-                if (list < l->list_count)
-                    job->places[cursors[list]++] = place_of(l, p.id[i], x | y << 16);
-            }
-        }
+    for (uint32_t x = 0; x < l->width; x += TILE)
+        for (uint32_t y = (uint32_t)band * RASTER_BAND; y < band_end(l, band); y++)
+            write_row(job, y, x, tile_end(l, x), cursors);
 }
 
 void shade_list_write(const shade_list *l, gpu_listed *places)
@@ -320,13 +337,13 @@ static void mix_pixel(const mix_job *job, uint32_t x, uint32_t y, uint32_t *curs
     }
 }
 
-// How many pixels from x on show nothing, PANORAMA_RUN at most.
-static uint32_t count_empty(const shade_list *l, uint32_t x, uint32_t y)
+// How many pixels from x on and before `to` show nothing.
+static uint32_t count_empty(const shade_list *l, uint32_t x, uint32_t to, uint32_t y)
 {
-    uint32_t count = 0, most = l->width - x < PANORAMA_RUN ? l->width - x : PANORAMA_RUN;
-    while (count < most && is_empty(l, ids_of(l, x + count, y)))
-        count++;
-    return count;
+    uint32_t end = x;
+    while (end < to && is_empty(l, ids_of(l, end, y)))
+        end++;
+    return end - x;
 }
 
 static void mix_background(const mix_job *job, uint32_t x, uint32_t y, uint32_t count)
@@ -345,17 +362,18 @@ static void mix_background(const mix_job *job, uint32_t x, uint32_t y, uint32_t 
         finish_pixel(job, run[i], at + i);
 }
 
-static void mix_row(const mix_job *job, uint32_t y, uint32_t *cursors)
+// The pixels [from, to) of a row.
+static void mix_row(const mix_job *job, uint32_t y, uint32_t from, uint32_t to, uint32_t *cursors)
 {
     const shade_list *l = job->list;
     const shade_mix *mix = job->mix;
     size_t texel = mix->format == AG_FORMAT_RGBA8 ? 4 : 16;
     const shade_source *before = NULL; // that alone gave the pixel before, known beforehand
-    for (uint32_t x = 0; x < l->width; x++) {
+    for (uint32_t x = from; x < to; x++) {
         const uint32_t *ids = ids_of(l, x, y);
         size_t at = (size_t)y * l->width + x;
         const shade_source *source = is_whole(l, ids) ? source_of(l, ids[0]) : NULL;
-        uint32_t empty = mix->background ? count_empty(l, x, y) : 0;
+        uint32_t empty = mix->background ? count_empty(l, x, to, y) : 0;
         if (empty) {
             mix_background(job, x, y, empty);
             x += empty - 1;
@@ -386,8 +404,9 @@ static void mix_band(void *context, size_t band)
     const shade_list *l = job->list;
     uint32_t cursors[SHADE_LISTS_MAX + 1];
     memcpy(cursors, cursors_of(l, band), (l->list_count + 1) * sizeof *cursors);
-    for (uint32_t y = (uint32_t)band * RASTER_BAND; y < band_end(l, band); y++)
-        mix_row(job, y, cursors);
+    for (uint32_t x = 0; x < l->width; x += TILE)
+        for (uint32_t y = (uint32_t)band * RASTER_BAND; y < band_end(l, band); y++)
+            mix_row(job, y, x, tile_end(l, x), cursors);
 }
 
 void shade_list_mix(const shade_list *l, const shade_mix *mix)
