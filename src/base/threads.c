@@ -34,12 +34,13 @@ static void *run(void *argument)
     return NULL;
 }
 
-void parallel_for_workers(size_t count, void (*task)(void *context, size_t index, unsigned worker),
-                          void *context)
+void parallel_for_workers(unsigned most, size_t count,
+                          void (*task)(void *context, size_t index, unsigned worker), void *context)
 {
     work w = { .count = count, .task = task, .context = context };
     pthread_t threads[THREADS_MAX];
     unsigned wanted = threads_available(), made = 0;
+    wanted = wanted < most ? wanted : most;
     if (wanted > count)
         wanted = (unsigned)count;
     while (made + 1 < wanted && pthread_create(&threads[made], NULL, run, &w) == 0)
@@ -64,5 +65,5 @@ static void run_plain(void *context, size_t index, unsigned worker)
 void parallel_for(size_t count, void (*task)(void *context, size_t index), void *context)
 {
     plain_task plain = { task, context };
-    parallel_for_workers(count, run_plain, &plain);
+    parallel_for_workers(THREADS_MAX, count, run_plain, &plain);
 }

@@ -13,8 +13,10 @@ unsigned threads_available(void);
 // caller does all of it.
 void parallel_for(size_t count, void (*task)(void *context, size_t index), void *context);
 
-// The same; `worker` is below threads_available(), and no two tasks run with one at a time.
-void parallel_for_workers(size_t count, void (*task)(void *context, size_t index, unsigned worker),
+// The same on at most `most` threads; `worker` is below that, and no two tasks run with one at a
+// time.
+void parallel_for_workers(unsigned most, size_t count,
+                          void (*task)(void *context, size_t index, unsigned worker),
                           void *context);
 
 #endif

@@ -35,9 +35,13 @@ typedef struct raster_chunk {
     size_t order_capacity;
     uint32_t *bands; // [bands + 1]: where a band starts in `order`
     size_t bands_capacity;
-    struct projected *vertices; // of a part
-    size_t vertices_capacity;
 } raster_chunk;
+
+// What a worker needs for the part that it is at.
+typedef struct raster_scratch {
+    struct projected *vertices;
+    size_t capacity;
+} raster_scratch;
 
 typedef struct begin_job {
     raster *raster;
@@ -130,30 +134,29 @@ static void index_range(const raster_part *p, uint32_t *first, uint32_t *last)
 }
 
 // The vertices of a part; indices count from *first.
-static bool project_part(const raster *r, raster_chunk *c, const raster_part *p, uint32_t *first)
+static bool project_part(const raster *r, raster_scratch *s, const raster_part *p, uint32_t *first)
 {
     uint32_t last;
     index_range(p, first, &last);
     const raster_object *o = p->object;
-    if (!array_reserve(&c->vertices, &c->vertices_capacity, last - *first + 1ul,
-                       sizeof *c->vertices))
+    if (!array_reserve(&s->vertices, &s->capacity, last - *first + 1ul, sizeof *s->vertices))
         return false;
     vec4 column[4];
     for (int i = 0; i < 4; i++)
         column[i] = vec4(o->clip[i][0], o->clip[i][1], o->clip[i][2], o->clip[i][3]);
     for (uint32_t i = *first; i <= last; i++) {
         const float *v = (const float *)(const void *)((const char *)o->positions + i * o->stride);
-        c->vertices[i - *first] =
+        s->vertices[i - *first] =
             project(r, column[0] * v[0] + column[1] * v[1] + column[2] * v[2] + column[3]);
     }
     return true;
 }
 
-static bool add_part(const raster *r, raster_chunk *c, const raster_part *p)
+static bool add_part(const raster *r, raster_chunk *c, raster_scratch *s, const raster_part *p)
 {
     uint32_t base;
-    bool ok = project_part(r, c, p, &base);
-    const projected *vertices = c->vertices;
+    bool ok = project_part(r, s, p, &base);
+    const projected *vertices = s->vertices;
     for (uint32_t i = p->first; i < p->first + p->count && ok; i++) {
         const uint32_t *corner = p->object->indices + 3ul * i;
         const projected *const v[3] = { vertices + (corner[0] - base),
@@ -193,7 +196,7 @@ static bool sort_bands(const raster *r, raster_chunk *c)
     return true;
 }
 
-static void begin_chunk(void *context, size_t index)
+static void begin_chunk(void *context, size_t index, unsigned worker)
 {
     begin_job *job = context;
     const raster *r = job->raster;
@@ -202,7 +205,7 @@ static void begin_chunk(void *context, size_t index)
     if (ok)
         memset(c->bands, 0, (r->bands + 1ul) * sizeof *c->bands);
     for (size_t i = 0; i < c->part_count && ok; i++)
-        ok = add_part(r, c, &c->parts[i]);
+        ok = add_part(r, c, &r->scratch[worker], &c->parts[i]);
     if (!ok || !sort_bands(r, c))
         atomic_store(&job->failed, true);
 }
@@ -214,10 +217,23 @@ static bool reserve_chunks(raster *r, size_t most)
     if (!array_reserve(&r->parts, &r->part_capacity, most, sizeof *r->parts) ||
         !array_reserve(&r->chunks, &r->chunk_capacity, most, sizeof *r->chunks))
         return false;
-    memset(r->chunks + before, 0, (r->chunk_capacity - before) * sizeof *r->chunks);
+    if (r->chunk_capacity > before)
+        memset(r->chunks + before, 0, (r->chunk_capacity - before) * sizeof *r->chunks);
     for (size_t i = 0; i < r->chunk_capacity; i++)
         r->chunks[i].part_count = r->chunks[i].count = 0;
     r->chunk_count = 0;
+    return true;
+}
+
+static bool reserve_scratch(raster *r)
+{
+    size_t before = r->scratch_capacity;
+    if (!array_reserve(&r->depth, &r->depth_capacity, (size_t)r->workers * RASTER_BAND * r->pitch,
+                       sizeof *r->depth) ||
+        !array_reserve(&r->scratch, &r->scratch_capacity, r->workers, sizeof *r->scratch))
+        return false;
+    if (r->scratch_capacity > before)
+        memset(r->scratch + before, 0, (r->scratch_capacity - before) * sizeof *r->scratch);
     return true;
 }
 
@@ -253,12 +269,11 @@ bool raster_begin(raster *r, uint32_t width, uint32_t height, uint32_t samples,
     r->samples = samples;
     r->pitch = (width * samples + LANES - 1) / LANES * LANES;
     r->bands = (height + RASTER_BAND - 1) / RASTER_BAND;
-    if (!array_reserve(&r->depth, &r->depth_capacity,
-                       (size_t)threads_available() * RASTER_BAND * r->pitch, sizeof *r->depth) ||
-        !make_chunks(r, objects, count))
+    r->workers = threads_available();
+    if (!reserve_scratch(r) || !make_chunks(r, objects, count))
         return false;
     begin_job job = { .raster = r };
-    parallel_for(r->chunk_count, begin_chunk, &job);
+    parallel_for_workers(r->workers, r->chunk_count, begin_chunk, &job);
     return !atomic_load(&job.failed);
 }
 
@@ -268,8 +283,10 @@ void raster_finish(raster *r)
         free(r->chunks[i].triangles);
         free(r->chunks[i].order);
         free(r->chunks[i].bands);
-        free(r->chunks[i].vertices);
     }
+    for (size_t i = 0; i < r->scratch_capacity; i++)
+        free(r->scratch[i].vertices);
+    free(r->scratch);
     free(r->chunks);
     free(r->parts);
     free(r->depth);

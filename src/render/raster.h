@@ -36,8 +36,11 @@ typedef struct raster {
     size_t chunk_count, chunk_capacity;
     struct raster_part *parts; // of all chunks
     size_t part_capacity;
+    unsigned workers;
     float *depth; // of a band, for each worker
     size_t depth_capacity;
+    struct raster_scratch *scratch; // for each worker
+    size_t scratch_capacity;
 } raster;
 
 // Project, clip and sort the triangles of a picture.  On all cores.  False: no memory.  What was
@@ -48,7 +51,7 @@ void raster_finish(raster *r); // zero is allowed
 
 // Draw one band: the ids of the samples of the pixels of its rows, rows r->pitch apart.  Nearer
 // ones win, among equals later ones; depth is 1 at the near plane and 0 at the far one.  `ids` is
-// aligned to 16 bytes; `worker` as of parallel_for_workers().
+// aligned to 16 bytes; `worker` is below r->workers, each at one band at a time.
 void raster_band(const raster *r, uint32_t band, unsigned worker, uint32_t *ids);
 
 #endif

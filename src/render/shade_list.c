@@ -196,7 +196,7 @@ bool shade_list_count(shade_list *l, const raster *r)
     if (!allocate(l))
         return false;
     count_job job = { .list = l, .raster = r };
-    parallel_for_workers(l->bands, count_band, &job);
+    parallel_for_workers(r->workers, l->bands, count_band, &job);
     place_lists(l);
     return true;
 }
@@ -376,6 +376,7 @@ static void mix_row(const mix_job *job, uint32_t y, uint32_t from, uint32_t to, 
         uint32_t empty = mix->background ? count_empty(l, x, to, y) : 0;
         if (empty) {
             mix_background(job, x, y, empty);
+            before = NULL;
             x += empty - 1;
             continue;
         }

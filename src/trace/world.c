@@ -37,9 +37,8 @@ static bool has_holes(const ag_material_desc *m)
 // Of all that is woven: the pictures of a scene are kept twice so far.
 static const size_t WOVEN_MAX = (size_t)256 << 20;
 
-static ag_status make_textures(const ag_scene *scene, world *w)
+static ag_status make_textures(const ag_scene *scene, size_t limit, world *w)
 {
-    size_t woven = 0;
     w->texture_count = 0;
     w->textures = calloc(scene->materials_count + 1, sizeof *w->textures);
     if (!w->textures)
@@ -50,7 +49,7 @@ static ag_status make_textures(const ag_scene *scene, world *w)
         ag_status status = texture_set_init(scene, &scene->materials[i], &w->textures[i]);
         if (status)
             return status;
-        woven += texture_set_weave(&w->textures[i], WOVEN_MAX - woven);
+        limit -= texture_set_weave(&w->textures[i], limit);
     }
     return AG_OK;
 }
@@ -377,7 +376,7 @@ ag_status world_create(const ag_scene *scene, const ag_progress *progress, world
         return log_fail(&w->log, AG_ERROR_UNSUPPORTED,
                         "Embree does not run on this processor (error %d)",
                         (int)rtcGetDeviceError(NULL));
-    ag_status status = make_textures(scene, w);
+    ag_status status = make_textures(scene, WOVEN_MAX, w);
     if (!status)
         status = make_instances(scene, w);
     if (!status)
@@ -404,7 +403,7 @@ ag_status world_renew(const ag_scene *scene, const world *from, const ag_progres
     if (!filters_hold(scene, from))
         return world_create(scene, progress, w);
     *w = *from;
-    ag_status status = make_textures(scene, w);
+    ag_status status = make_textures(scene, 0, w); // weaving takes longer than a hand at work waits
     if (!status)
         status = make_instances(scene, w);
     if (status)

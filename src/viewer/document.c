@@ -221,6 +221,8 @@ void document_collect(viewer *v)
             document_load(v, next, l->next_keeps_view);
         } else if (status && v->document.scene && strcmp(l->input, v->document_input) != 0) {
             watch(v, v->document_input); // that stays
+            if (v->drafted)
+                document_load(v, v->document_input, true); // all of it, as was begun
         }
     }
     if (l->ready && viewer_can_edit(v))

@@ -65,11 +65,17 @@ static ag_status look_job(void *context, worker *self)
     return AG_OK;
 }
 
+// Not while a look is at work: it reads what is set here.
 static void begin_look(viewer *v)
 {
     looking *l = &v->looking;
     l->at_work = l->wanted;
     l->wanted = LOOK_NONE;
+    screen_size(v->screen, &l->width, &l->height);
+    if (!l->width || !l->height) {
+        l->at_work = LOOK_NONE;
+        return;
+    }
     l->scene = v->document.scene;
     l->camera = navigation_camera(&v->navigation);
     l->place[0] = (float)l->at[0];
@@ -82,8 +88,7 @@ static void begin_look(viewer *v)
 void picking_look(viewer *v, look_use use, const double at[2])
 {
     looking *l = &v->looking;
-    screen_size(v->screen, &l->width, &l->height);
-    l->wanted = v->document.scene && l->width && l->height ? use : LOOK_NONE;
+    l->wanted = v->document.scene ? use : LOOK_NONE;
     l->at[0] = at[0];
     l->at[1] = at[1];
     if (l->wanted && !worker_is_busy(l->worker))

@@ -118,7 +118,7 @@ void pointer_found(viewer *v, look_use use, selection what)
 {
     bool light = what.kind == PICK_LIGHT;
     if (use == LOOK_HOVER)
-        rest_on(v, what);
+        rest_on(v, v->pointing.drag ? (selection) { 0 } : what);
     else if (use == LOOK_CLICK)
         picking_pick(v, what);
     else if (light && v->picked.kind == PICK_LIGHT && what.index == v->picked.index)
