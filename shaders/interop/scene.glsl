@@ -208,12 +208,9 @@ STRUCT_BEGIN(gpu_listed)
     uint first_vertex; // of the mesh
 STRUCT_END(gpu_listed)
 
-#define GPU_LIST_LANES 8u // invocations of a group
-
 // Which part of the list a dispatch shades; pushed.
 STRUCT_BEGIN(gpu_list)
     uint first, count;
-    uint each; // how many of them an invocation shades
 STRUCT_END(gpu_list)
 
 #ifndef GL_core_profile

@@ -93,10 +93,12 @@ void main()
 {
     frame = bound_frame;
     material = bound_material;
-    uint share = GPU_LIST_LANES * push.each, first = gl_WorkGroupID.x * share;
-    uint end = min(first + share, push.count);
-    for (uint k = first + gl_LocalInvocationID.x; k < end; k += GPU_LIST_LANES) {
-        uint i = push.first + k;
+    uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x * PLACES + gl_LocalInvocationID.x;
+    for (uint k = 0u; k < PLACES; k++) {
+        uint i = first + k * gl_WorkGroupSize.x;
+        if (i >= push.count)
+            break;
+        i += push.first;
         here = place_listed(texelFetch(listed, int(i)));
         store(i, color_here(base_here()));
     }

@@ -9,9 +9,8 @@
 #include <string.h>
 
 enum {
+    GROUP = 512,         // places that a workgroup shades: listed.glsl
     GROUPS_MAX = 0xffff, // of a dispatch
-    EACH_MAX = 64,       // places that an invocation shades
-    ROUNDS = 1000,       // of a loop over lights: lavapipe ends an invocation's loops after 65535
 };
 
 // ---- Whether -------------------------------------------------------------------
@@ -215,28 +214,18 @@ static ag_status see(ag_renderer *r, const picture *p)
 
 // ---- Shading ---------------------------------------------------------------------------
 
-// So many that all loops over lights, which have loops of their own, are not too long together.
-static uint32_t places_each(const ag_renderer *r)
-{
-    uint32_t most = ROUNDS / (r->resident.lights.count + 1);
-    return most < 1 ? 1 : most < EACH_MAX ? most : EACH_MAX;
-}
-
-static void record_dispatch(const ag_renderer *r, VkPipeline pipeline, uint32_t first,
-                            uint32_t count)
+static void record_dispatch(const ag_renderer *r, VkPipeline pipeline, gpu_list list)
 {
     VkCommandBuffer cmd = r->commands.buffer;
-    const uint32_t each = places_each(r), group = GPU_LIST_LANES * each;
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     do {
-        const uint32_t most = GROUPS_MAX * group;
-        const gpu_list part = { first, count < most ? count : most, each };
+        const uint32_t most = GROUPS_MAX * GROUP, end = list.first + list.count;
+        const gpu_list part = { list.first, list.count < most ? list.count : most };
         vkCmdPushConstants(cmd, r->bindings.shading, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof part,
                            &part);
-        vkCmdDispatch(cmd, part.count ? (part.count + group - 1) / group : 1, 1, 1);
-        first += part.count;
-        count -= part.count;
-    } while (count);
+        vkCmdDispatch(cmd, part.count ? (part.count + GROUP - 1) / GROUP : 1, 1, 1);
+        list = (gpu_list) { part.first + part.count, end - part.first - part.count };
+    } while (list.count);
 }
 
 static void bind_compute(const ag_renderer *r, uint32_t index, VkDescriptorSet set)
@@ -245,15 +234,14 @@ static void bind_compute(const ag_renderer *r, uint32_t index, VkDescriptorSet s
                             index, 1, &set, 0, NULL);
 }
 
-static ag_status record_material(ag_renderer *r, const picture *p, uint32_t material,
-                                 uint32_t first, uint32_t count)
+static ag_status record_material(ag_renderer *r, const picture *p, uint32_t material, gpu_list list)
 {
     VkPipeline pipeline;
     ag_status status = variants_surface(r, p, PIPELINE_SHADE, material, &pipeline);
     if (status)
         return status;
     bind_compute(r, 1, r->resident.materials.sets[material]);
-    record_dispatch(r, pipeline, first, count);
+    record_dispatch(r, pipeline, list);
     return AG_OK;
 }
 
@@ -268,9 +256,9 @@ static ag_status record_shading(ag_renderer *r, const picture *p, const shade_li
     ag_status status = AG_OK;
     begin_shading(r);
     for (uint32_t i = 0; i < l->list_count && !status; i++) {
-        uint32_t count = l->firsts[i + 1] - l->firsts[i];
-        if (count)
-            status = record_material(r, p, i, l->firsts[i], count);
+        const gpu_list part = { l->firsts[i], l->firsts[i + 1] - l->firsts[i] };
+        if (part.count)
+            status = record_material(r, p, i, part);
     }
     gpu_barrier_memory(&r->commands, GPU_ACCESS_COMPUTE_WRITE, GPU_ACCESS_HOST_READ);
     return status;
@@ -293,6 +281,7 @@ static ag_status bind_places(ag_renderer *r, uint32_t count)
 
 ag_status deferred_warm_up(ag_renderer *r, const picture *p)
 {
+    const gpu_list nothing = { 0, 0 };
     ag_status status = bind_places(r, 1);
     if (!status)
         status = gpu_commands_begin(r->device, &r->commands);
@@ -301,7 +290,7 @@ ag_status deferred_warm_up(ag_renderer *r, const picture *p)
     begin_shading(r);
     for (uint32_t i = 0; i < p->draws.count && !status; i++)
         if (i == 0 || p->draws.items[i].material != p->draws.items[i - 1].material)
-            status = record_material(r, p, p->draws.items[i].material, 0, 0);
+            status = record_material(r, p, p->draws.items[i].material, nothing);
     return status ? status : run(r);
 }
 
