@@ -5,12 +5,7 @@
 #include "interop/scene.glsl"
 #include "physics/white_balance.glsl"
 
-#ifdef LISTED
-layout(scalar, set = 0, binding = 0) uniform Frame { gpu_frame bound_frame; };
-gpu_frame frame; // a copy: see listed.glsl
-#else
 layout(scalar, set = 0, binding = 0) uniform Frame { gpu_frame frame; };
-#endif
 layout(set = 0, binding = 1) uniform samplerCube environment_cube; // prefiltered
 layout(set = 0, binding = 2) uniform sampler2D environment_image;  // equirectangular
 layout(set = 0, binding = 3) uniform sampler2D dfg_table;

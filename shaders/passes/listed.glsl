@@ -1,11 +1,7 @@
 // Places to shade, listed by the host, and the colours that come of them.
 #include "passes/frame.glsl"
 
-// lavapipe reads each number of a uniform buffer anew for every eight places, lane by lane, and
-// allocates for each of their groups: so eight invocations share a group and go on through the
-// list, with copies of what they read.
-layout(local_size_x = 8) in;
-const uint PLACES = 64u; // of an invocation
+layout(local_size_x = 64) in;
 
 // A gpu_listed each.
 layout(set = 2, binding = 0) uniform usamplerBuffer listed;

@@ -91,15 +91,10 @@ place place_listed(uvec4 entry)
 
 void main()
 {
-    frame = bound_frame;
-    material = bound_material;
-    uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x * PLACES + gl_LocalInvocationID.x;
-    for (uint k = 0u; k < PLACES; k++) {
-        uint i = first + k * gl_WorkGroupSize.x;
-        if (i >= push.count)
-            break;
-        i += push.first;
-        here = place_listed(texelFetch(listed, int(i)));
-        store(i, color_here(base_here()));
-    }
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.count)
+        return;
+    i += push.first;
+    here = place_listed(texelFetch(listed, int(i)));
+    store(i, color_here(base_here()));
 }

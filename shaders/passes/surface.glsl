@@ -16,12 +16,7 @@ layout(constant_id = 4) const uint ENVIRONMENT = 1u;
 layout(constant_id = 6) const uint TONE = 0u;
 layout(constant_id = 12) const uint MODEL = 0u;
 
-#ifdef LISTED
-layout(scalar, set = 1, binding = 0) uniform Material { gpu_material bound_material; };
-gpu_material material; // a copy: see listed.glsl
-#else
 layout(scalar, set = 1, binding = 0) uniform Material { gpu_material material; };
-#endif
 layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
 layout(set = 1, binding = 2) uniform sampler2D metallic_roughness_texture;
 layout(set = 1, binding = 3) uniform sampler2D normal_texture;

@@ -9,7 +9,7 @@
 #include <string.h>
 
 enum {
-    GROUP = 512,         // places that a workgroup shades: listed.glsl
+    GROUP = 64,          // places that a workgroup shades: listed.glsl
     GROUPS_MAX = 0xffff, // of a dispatch
 };
 
